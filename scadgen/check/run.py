@@ -1,0 +1,42 @@
+"""All checks of a kit, in order."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from scadgen.check import geometry, rendered
+from scadgen.check.result import Result
+from scadgen.kit.model import Kit
+
+__all__ = ["checks"]
+
+
+def checks(kit: Kit, scad: Path, timeout: float) -> Iterator[Result]:
+    """Run all checks, one result after the other.
+
+    Parameters
+    ----------
+    kit
+        The kit.
+    scad
+        Its OpenSCAD file.
+    timeout
+        Seconds that OpenSCAD may take for one drawing.
+
+    Raises
+    ------
+    ToolError
+        OpenSCAD is missing.
+    """
+    yield geometry.same(kit)
+    yield from geometry.closed(kit)
+    yield from geometry.partition(kit)
+    yield geometry.footprint(kit)
+    yield from geometry.gaps(kit)
+    yield from geometry.sampling(kit)
+    with tempfile.TemporaryDirectory(prefix="scadgen-") as name:
+        folder = Path(name)
+        yield from rendered.part_renders(kit, scad, folder, timeout)
+        yield from rendered.view_renders(scad, folder, timeout)

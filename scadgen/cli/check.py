@@ -1,0 +1,41 @@
+"""``scadgen check``: check a kit."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import click
+
+from scadgen.cli.console import status, table
+
+__all__ = ["check"]
+
+
+@click.command(short_help="Check everything about a kit.")
+@click.argument("folder", metavar="KIT", type=click.Path(path_type=Path))
+@click.option("--timeout", default=300.0, show_default=True, metavar="S", help="Limit a drawing.")
+@click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
+def check(folder: Path, timeout: float, as_json: bool) -> int:  # noqa: FBT001
+    """Check a kit: solids, partition, footprint, gaps, sampling, and OpenSCAD's drawings.
+
+    Exit status 0 if all is good, 1 if anything is not.
+    """
+    from scadgen.check.run import checks
+    from scadgen.kit.store import load
+
+    kit = load(folder)
+    results = []
+    with status(f"checking {folder}") as say:
+        for result in checks(kit, folder / f"{kit.frame}.scad", timeout):
+            results.append(result)
+            say(f"checking {folder}: {result.check}")
+    if as_json:
+        click.echo(json.dumps([asdict(result) for result in results], indent=1))
+    else:
+        rows = [("ok" if r.good else "FAILED", r.check, r.figure, r.bound) for r in results]
+        table(("", "check", "found", "must be"), rows)
+        bad = sum(not r.good for r in results)
+        click.echo(f"{folder}: {len(results) - bad} of {len(results)} checks are good")
+    return 0 if all(result.good for result in results) else 1

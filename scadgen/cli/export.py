@@ -1,0 +1,71 @@
+"""``scadgen export``: evaluate a part without any CAD tool."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from scadgen.errors import InputError
+from scadgen.kit.model import Kit
+
+__all__ = ["export", "settings"]
+
+
+@click.command(short_help="Write one part as a mesh, without any CAD tool.")
+@click.argument("folder", metavar="KIT", type=click.Path(path_type=Path))
+@click.option("--part", required=True, help="Which part: basic, half, ...")
+@click.option(
+    "--format",
+    "kind",
+    metavar="stl|3mf|obj|glb",
+    help="Kind of file.  [default: by the output's ending]",
+)
+@click.option("--set", "changes", multiple=True, metavar="NAME=MM", help="Another live parameter.")
+@click.option(
+    "-o", "--output", required=True, type=click.Path(path_type=Path), help="File to write."
+)
+def export(
+    folder: Path, part: str, kind: str | None, changes: tuple[str, ...], output: Path
+) -> None:
+    r"""Write one part of a kit as STL, 3MF, OBJ or GLB.
+
+    \b
+    scadgen export out/hexagonal --part half --set clearance=0.3 -o half.stl
+    """
+    from scadgen.emit.mesh import mesh_bytes, write_atomic
+    from scadgen.kit.store import load
+
+    kit = load(folder)
+    if part not in kit.parts:
+        msg = f"part = {part!r}: must be one of {', '.join(kit.parts)}"
+        raise InputError(msg)
+    solid = kit.parts[part]
+    points = solid.points(settings(kit, changes))
+    write_atomic(output, mesh_bytes(points, solid.triangles, kind or output.suffix.lstrip(".")))
+    click.echo(f"{output}: {part}, {len(solid.triangles)} triangles")
+
+
+def settings(kit: Kit, changes: tuple[str, ...]) -> dict[str, float]:
+    """A kit's live parameters with some changed, checked against their ranges.
+
+    Raises
+    ------
+    InputError
+        A change that is not NAME=MM, names no live parameter, or leaves its range.
+    """
+    from scadgen.kit.ranges import check_values
+
+    values = dict(kit.values)
+    for change in changes:
+        name, equals, text = change.partition("=")
+        if not equals or name not in values:
+            msg = f"--set {change}: must be NAME=MM with NAME one of {', '.join(values)}"
+            raise InputError(msg)
+        try:
+            values[name] = float(text)
+        except ValueError as error:
+            msg = f"--set {change}: {text!r} is not a number of mm"
+            raise InputError(msg) from error
+    check_values(kit.ranges, values)
+    return values

@@ -1,0 +1,56 @@
+"""The command line: ``scadgen``."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+import click
+
+from scadgen import __version__
+from scadgen.cli.check import check
+from scadgen.cli.export import export
+from scadgen.cli.kit import kit
+from scadgen.cli.render import render
+from scadgen.errors import ScadgenError
+
+__all__ = ["cli", "main"]
+
+#: Exit status for a request that is wrong, and for an interrupted one.
+_WRONG, _INTERRUPTED = 2, 130
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(__version__, prog_name="scadgen")
+def cli() -> None:
+    """Turn a planar frame into 3D-printable parts that interlock without glue or screws."""
+
+
+for command in (kit, export, render, check):
+    cli.add_command(command)
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command line and exit.
+
+    Exit status 0 is good, 1 means that the answer is no, 2 that the request was wrong;
+    then stderr has one line that says what, the value, and what works.
+    """
+    try:
+        status = cli.main(arguments, prog_name="scadgen", standalone_mode=False)
+    except click.UsageError as error:
+        where = f" (see {error.ctx.command_path} --help)" if error.ctx else ""
+        _fail(error.format_message().replace("\n", " ") + where)
+    except click.ClickException as error:
+        _fail(error.format_message().replace("\n", " "))
+    except ScadgenError as error:
+        _fail(str(error))
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("scadgen: interrupted", err=True)
+        sys.exit(_INTERRUPTED)
+    sys.exit(status if isinstance(status, int) else 0)
+
+
+def _fail(message: str) -> None:
+    click.echo(f"scadgen: {message}", err=True)
+    sys.exit(_WRONG)

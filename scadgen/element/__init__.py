@@ -1,0 +1,1 @@
+"""Edge elements and loose parts: what is printed."""

@@ -1,0 +1,99 @@
+"""A kit as a folder of files: all of them, or none."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from scadgen.emit.makefile import makefile, stl_check
+from scadgen.emit.picture import preview
+from scadgen.emit.readme import readme
+from scadgen.emit.scad import parameter_sets, scad
+from scadgen.errors import InputError
+from scadgen.kit.model import Kit
+from scadgen.kit.store import dumps
+
+__all__ = ["files_of", "write_kit"]
+
+
+def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
+    """The kit's files by name, and what writes each."""
+    return {
+        "kit.json": dumps,
+        f"{kit.frame}.scad": scad,
+        f"{kit.frame}.json": parameter_sets,
+        "Makefile": makefile,
+        "check_stl.py": lambda _: stl_check(),
+        "README.md": readme,
+        "preview.png": preview,
+    }
+
+
+def write_kit(kit: Kit, folder: Path, *, progress: Callable[[str], None] = lambda _: None) -> None:
+    """Write a kit's folder; one that is there is replaced when the new one is complete.
+
+    Parameters
+    ----------
+    kit
+        The kit.
+    folder
+        Where to; a kit that is there is replaced, with what was rendered from it, and all
+        other files in it are kept.
+    progress
+        Called with the name of each file before it is written.
+
+    Raises
+    ------
+    InputError
+        The folder is a file, holds something else, or cannot be written.  Nothing is
+        changed then.
+    """
+    target = Path(os.path.realpath(folder))
+    if target.exists() and not target.is_dir():
+        msg = f"cannot write the kit to {str(folder)!r}: it is a file; name a folder, or a new one"
+        raise InputError(msg)
+    if target.is_dir() and any(target.iterdir()) and not (target / "kit.json").is_file():
+        msg = f"cannot write the kit to {str(folder)!r}: it holds other things; name a new folder"
+        raise InputError(msg)
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=target.parent, prefix=".scadgen-") as name:
+            stage = Path(name) / "kit"
+            stage.mkdir()
+            for file, write in files_of(kit).items():
+                progress(file)
+                text = write(kit)
+                data = text if isinstance(text, bytes) else text.encode()
+                (stage / file).write_bytes(data)
+            _swap(stage, target, Path(name) / "old")
+    except OSError as error:
+        msg = (
+            f"cannot write the kit to {str(folder)!r}: {error.strerror}; name a folder in a "
+            "writable place with space left"
+        )
+        raise InputError(msg) from error
+
+
+#: What the kit's Makefile and `scadgen render` write, which a new kit makes stale.
+_RENDERED = {"stl", "3mf", "png", "plates", ".build"}
+
+
+def _swap(stage: Path, target: Path, old: Path) -> None:
+    """Put the staged folder in the target's place, with what else the target holds."""
+    if not target.exists():
+        stage.rename(target)
+        return
+    ours = {entry.name for entry in stage.iterdir()} | _RENDERED
+    kept = [entry.name for entry in target.iterdir() if entry.name not in ours]
+    for name in kept:
+        source = target / name
+        (shutil.copytree if source.is_dir() else shutil.copy2)(source, stage / name)
+    target.rename(old)
+    try:
+        stage.rename(target)
+    except OSError:
+        old.rename(target)
+        raise

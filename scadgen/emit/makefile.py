@@ -1,0 +1,45 @@
+"""The kit's Makefile, and the checker of meshes that it runs.
+
+A user of a kit has no scadgen, so the checker is a script that needs Python's standard
+library alone.
+"""
+
+from __future__ import annotations
+
+from scadgen import __version__
+from scadgen.emit.scad_text import comment
+from scadgen.emit.templates import environment
+from scadgen.kit.model import Kit
+
+__all__ = ["makefile", "stl_check"]
+
+
+def makefile(kit: Kit) -> str:
+    """Write the Makefile that renders and checks everything a kit can print.
+
+    Parameters
+    ----------
+    kit
+        The kit; the Makefile stands beside its ``.scad`` and ``check_stl.py``.
+
+    Returns
+    -------
+    text
+        For GNU make, ASCII.
+    """
+    return (
+        environment()
+        .get_template("kit.mk.j2")
+        .render(
+            title=f"{comment(kit.frame)} frame of interlocking edge elements",
+            version=__version__,
+            command=comment(kit.command),
+            scad=f"{kit.frame}.scad",
+            parts=list(kit.parts),
+        )
+    )
+
+
+def stl_check() -> str:
+    """Give the text of ``check_stl.py``, which the Makefile runs on every mesh."""
+    return environment().get_template("check_stl.py").render()

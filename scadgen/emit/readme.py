@@ -1,0 +1,132 @@
+"""The kit's own README: what to print, how to print it, how to put it together."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from scadgen import __version__
+from scadgen.emit.scad_parameters import PART_LABELS, Parameter, limits, sections
+from scadgen.emit.scad_text import literal
+from scadgen.emit.templates import environment
+from scadgen.frame.layout import LAYOUTS, MOST_CELLS, bill
+from scadgen.kit.model import Kit
+from scadgen.solid.mesh import volume
+
+__all__ = ["readme"]
+
+#: Pieces small enough to get lost, and the share of them to print as spares.
+_SMALL = ("connector", "half", "peg")
+_SPARE = 0.1
+
+#: Density of PLA, in g/cm3.
+_PLA = 1.24
+
+#: Decimals to which bounds are shown, rounded inwards.
+_DECIMALS = 2
+
+#: All that has a meaning in the middle of a line of Markdown.
+_MARKS = re.compile(r"([\\`*_\[\]<>&|~#!])")
+
+
+def readme(kit: Kit) -> str:
+    """Write the README that stands beside a kit's other files.
+
+    Parameters
+    ----------
+    kit
+        The kit; nothing in it is trusted to be harmless as text.
+
+    Returns
+    -------
+    text
+        Markdown, UTF-8.
+    """
+    needed = _needed(kit)
+    total = sum(row["all"] for row in needed)
+    asked = {row["part"] for row in needed}
+    settings = {p.name: p for section in sections(kit) for p in section.parameters}
+    engine = environment()
+    engine.filters["md"] = _plain
+    return engine.get_template("kit_readme.md.j2").render(
+        version=__version__,
+        frame=kit.frame,
+        key=kit.key,
+        rows=kit.rows,
+        columns=kit.columns,
+        detail=kit.detail,
+        scad=f"{kit.frame}.scad",
+        needed=needed,
+        total=total,
+        grams=total * _PLA,
+        others=[f"`{name}`" for name in kit.parts if name not in asked],
+        one_joint=bill(kit.joint),
+        side=literal(kit.values["side"]),
+        peg_length=literal(kit.values["peg_length"]),
+        coupon_count=settings["coupon_count"].value,
+        coupon_first=settings["coupon_first"].value,
+        coupon_step=settings["coupon_step"].value,
+        live=[_live(kit, settings[name]) for name in settings if name in kit.values],
+        most_cells=MOST_CELLS,
+        weave={name: _text(value) for name, value in kit.weave.items()},
+        figures={name: _text(value) for name, value in kit.figures.items()},
+        command=_fenced(kit.command),
+    )
+
+
+def _needed(kit: Kit) -> list[Mapping[str, Any]]:
+    """What the frame needs: part, what it is, count, spares, and volume in cm3."""
+    key_end = "peg end" if kit.key == "fixed" else "socket end"
+    rows = []
+    for name, count in bill(LAYOUTS[kit.frame](kit.rows, kit.columns, kit.key)).items():
+        solid = kit.parts[name]
+        each = volume(solid.points(kit.values), solid.triangles) / 1000
+        rows.append(
+            {
+                "part": name,
+                "what": PART_LABELS[name].replace("peg end", key_end),
+                "count": count,
+                "spare": math.ceil(_SPARE * count) if name in _SMALL else 0,
+                "each": each,
+                "all": count * each,
+            }
+        )
+    return rows
+
+
+def _live(kit: Kit, parameter: Parameter) -> Mapping[str, str]:
+    """One live parameter: name, value, range at the defaults, meaning."""
+    low, high = limits(kit, parameter.name, kit.values)
+    unit = 10.0**_DECIMALS
+    return {
+        "name": parameter.name,
+        "value": parameter.value,
+        "low": literal(math.ceil(low * unit - 1e-6) / unit),
+        "high": literal(math.floor(high * unit + 1e-6) / unit),
+        "meaning": parameter.text.removesuffix(", mm"),
+    }
+
+
+def _text(value: float | str) -> str:
+    """A name as it is; a number with five significant digits."""
+    return value if isinstance(value, str) else f"{value:.5g}"
+
+
+def _one_line(text: str) -> str:
+    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
+
+
+def _plain(text: str) -> str:
+    """Text that Markdown shows as it is, in one line."""
+    return _MARKS.sub(r"\\\1", _one_line(text))
+
+
+def _fenced(text: str) -> str:
+    """Text as a code block, whatever it holds, in one line; nothing for no text."""
+    line = _one_line(text)
+    if not line:
+        return ""
+    fence = "`" * max(3, 1 + max(map(len, re.findall("`+", line)), default=0))
+    return f"{fence}\n{line}\n{fence}"

@@ -1,0 +1,127 @@
+"""The kit as one self-contained OpenSCAD file.
+
+No boolean is left for OpenSCAD: every part is one polyhedron whose vertices it only
+evaluates, and every plate or assembly is one polyhedron of many shells.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from scadgen import __version__
+from scadgen.emit.scad_parameters import parameter_sets, sections
+from scadgen.emit.scad_text import comment, expression, faces, number, quoted, table
+from scadgen.emit.templates import environment
+from scadgen.errors import InvariantError
+from scadgen.frame.layout import LAYOUTS, MOST_CELLS
+from scadgen.frame.placement import Placement
+from scadgen.kit.model import Kit
+from scadgen.solid.affine import PARAMETERS, AffineSolid
+
+__all__ = ["parameter_sets", "scad"]
+
+#: Live parameters that every kit has; the template counts on them.
+_NEEDED = ("side", "edge_length", "clearance", "peg_width", "peg_length", "peg_clearance")
+
+#: Edge elements, as `edge_element(kind)` names them.
+_ELEMENTS = ("basic", "one_sided", "two_sided", "tube")
+
+
+def scad(kit: Kit) -> str:
+    """Write the kit as an OpenSCAD file, for 2021.01 and newer.
+
+    Parameters
+    ----------
+    kit
+        The kit; nothing in it is trusted to be harmless as text.
+
+    Returns
+    -------
+    text
+        The file, ASCII.
+
+    Raises
+    ------
+    InvariantError
+        If the kit lacks a parameter, a range or a part that its own frame needs.
+    """
+    _check(kit)
+    live = [p for p in PARAMETERS if p in kit.values]
+    template_engine = environment()
+    template_engine.filters["quoted"] = quoted
+    text = template_engine.get_template("kit.scad.j2").render(
+        title=f"{comment(kit.frame).capitalize()} frame of interlocking edge elements",
+        purpose="Parts of a planar truss, a joint, print plates, the whole frame, and a coupon.",
+        version=__version__,
+        command=comment(kit.command),
+        weave=comment(", ".join(f"{k} = {v}" for k, v in kit.weave.items())),
+        key=kit.key,
+        detail=comment(kit.detail),
+        frame=kit.frame,
+        file=f"{kit.frame}.scad",
+        sections=sections(kit),
+        live=live,
+        index={name: i for i, name in enumerate(live)},
+        ranges=[
+            {
+                "parameter": r.parameter,
+                "low": expression(r.low),
+                "high": expression(r.high),
+                "reason": quoted(r.reason),
+            }
+            for r in kit.ranges
+        ],
+        parts=[_part(solid, live) for solid in kit.parts.values()],
+        elements=[name for name in _ELEMENTS if name in kit.parts],
+        joint=[_placement(p) for p in kit.joint],
+        half_side=_half_side(kit),
+        chamfer=f"s[{live.index('peg_chamfer')}]" if "peg_chamfer" in live else "0",
+        most_cells=MOST_CELLS,
+    )
+    if not text.isascii():
+        msg = "an OpenSCAD file is ASCII: this kit's is not"
+        raise InvariantError(msg)
+    return text
+
+
+def _check(kit: Kit) -> None:
+    """Check what the template counts on."""
+    if kit.frame not in LAYOUTS:
+        msg = f"every kit's frame has a layout: {kit.frame!r} has none"
+        raise InvariantError(msg)
+    for name in _NEEDED:
+        if name not in kit.values:
+            msg = f"every kit has the live parameter {name}: this one has not"
+            raise InvariantError(msg)
+    placed = (*kit.joint, *LAYOUTS[kit.frame](1, 1, kit.key))
+    for name in sorted({p.part for p in placed} - set(kit.parts)):
+        msg = f"a kit has every part of its frame: {name} is missing"
+        raise InvariantError(msg)
+    for name, solid in kit.parts.items():
+        for parameter in sorted(set(solid.coefficients) - set(kit.values)):
+            msg = f"a part moves with the kit's live parameters only: {name} with {parameter}"
+            raise InvariantError(msg)
+
+
+def _part(solid: AffineSolid, live: list[str]) -> Mapping[str, Any]:
+    """One part's tables, as the template writes them; tables without effect left out."""
+    tables = [
+        {"index": live.index(name), "text": table(factors)}
+        for name, factors in solid.coefficients.items()
+        if np.any(factors)
+    ]
+    return {"name": solid.name, "tables": tables, "faces": faces(solid)}
+
+
+def _placement(p: Placement) -> str:
+    flip = "true" if p.flip else "false"
+    x, y = (number(c) for c in p.at)
+    return f"[{quoted(p.part)}, {x}, {y}, {number(p.turn)}, {flip}, {quoted(p.role)}]"
+
+
+def _half_side(kit: Kit) -> int:
+    """Tell the side of its edge that half A is on: 1 for y above zero, -1 for below."""
+    return 1 if kit.parts["half"].points(kit.values)[:, 1].mean() > 0 else -1

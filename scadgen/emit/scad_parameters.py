@@ -1,0 +1,197 @@
+"""The Customizer's side of a kit: sections, sliders, choices and parameter sets."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from scadgen.emit.scad_text import literal
+from scadgen.errors import InvariantError
+from scadgen.frame.layout import MOST_CELLS
+from scadgen.kit.model import Kit
+
+__all__ = ["PART_LABELS", "Parameter", "Section", "limits", "parameter_sets", "sections"]
+
+#: What each choice of ``part`` is, for the Customizer; no comma, colon or bracket.
+PART_LABELS: Mapping[str, str] = {
+    "basic": "Edge element with two connectors",
+    "one_sided": "Edge element with connector and peg end",
+    "two_sided": "Edge element with two peg ends",
+    "connector": "Loose connector for the rim",
+    "half": "Locking half - print two a joint",
+    "peg": "Loose peg",
+    "tube": "Plain tube",
+    "plate": "Print plate of a whole frame",
+    "joint": "Joint assembled",
+    "joint_exploded": "Joint pulled apart",
+    "frame": "Frame assembled",
+    "coupon": "Coupon to find the clearance",
+}
+
+#: What each live parameter is, its section, and its slider's step in mm.
+_LIVE: Mapping[str, tuple[str, str, float]] = {
+    "side": ("Dimensions", "Side of the square tube, mm", 0.5),
+    "edge_length": ("Dimensions", "Distance between the centres of two joints, mm", 1.0),
+    "clearance": ("Clearance", "Gap between mating connectors, mm", 0.01),
+    "peg_clearance": ("Clearance", "Gap between the peg and each wall of its socket, mm", 0.01),
+    "peg_width": ("Peg", "Side of the square peg, mm", 0.1),
+    "peg_length": ("Peg", "Length of the peg, mm", 0.1),
+    "peg_chamfer": ("Peg", "Chamfer at the peg's tip, mm", 0.05),
+    "bore": ("Tube", "Side of the square hole along the tube, mm", 0.1),
+}
+
+#: A slider longer than this, in mm, cannot be set by hand.
+_LONGEST = 1000.0
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """One line of the Customizer.
+
+    Parameters
+    ----------
+    name
+        OpenSCAD variable.
+    value
+        Its default, as OpenSCAD text.
+    widget
+        What stands in the comment behind it.
+    text
+        What stands in the comment above it.
+    """
+
+    name: str
+    value: str
+    widget: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """One tab of the Customizer."""
+
+    title: str
+    parameters: tuple[Parameter, ...]
+
+
+def sections(kit: Kit) -> tuple[Section, ...]:
+    """Everything a user can set, in the order of the file."""
+    choices = [*kit.parts, "plate", "joint", "joint_exploded", "frame", "coupon"]
+    widget = "[" + ", ".join(f"{c}:{PART_LABELS[c]}" for c in choices) + "]"
+    live: dict[str, list[Parameter]] = {}
+    for name, (title, text, step) in _LIVE.items():
+        if name in kit.values:
+            live.setdefault(title, []).append(
+                Parameter(name, literal(kit.values[name]), _slider(kit, name, step), text)
+            )
+    first = literal(max(0.02, round(kit.values["peg_clearance"] - 0.05, 2)))
+    cells = f"[1:1:{MOST_CELLS}]"
+    return (
+        Section("Part", (Parameter("part", '"joint"', widget, "What to draw"),)),
+        *(Section(title, tuple(rows)) for title, rows in live.items()),
+        Section(
+            "Frame",
+            (
+                Parameter("rows", str(kit.rows), cells, "Cells of the frame, bottom to top"),
+                Parameter("columns", str(kit.columns), cells, "Cells of the frame, left to right"),
+            ),
+        ),
+        Section(
+            "Plate",
+            (
+                Parameter("bed", "[220, 220]", "[20:1:1000]", "Width and depth of the bed, mm"),
+                Parameter("plate_number", "1", "[1:1:200]", "Which of the plates to draw"),
+                Parameter("spacing", "3", "[0.5:0.5:20]", "Room between two parts, mm"),
+            ),
+        ),
+        Section(
+            "Coupon",
+            (
+                Parameter("coupon_first", first, "[0:0.01:1]", "Gap of the first socket, mm"),
+                Parameter("coupon_step", "0.05", "[0.01:0.01:0.5]", "Added gap a socket, mm"),
+                Parameter("coupon_count", "5", "[1:1:8]", "Number of sockets"),
+            ),
+        ),
+        Section(
+            "View",
+            (
+                Parameter(
+                    "explode",
+                    "0",
+                    "[0:0.1:4]",
+                    "How far the frame is pulled apart, in sides (the joint: 1.5 when 0)",
+                ),
+            ),
+        ),
+    )
+
+
+def limits(kit: Kit, name: str, values: Mapping[str, float]) -> tuple[float, float]:
+    """Lowest and highest value of a live parameter, in mm, at the others' values.
+
+    Raises
+    ------
+    InvariantError
+        If the kit has no range for it.
+    """
+    own = [r for r in kit.ranges if r.parameter == name]
+    if not own:
+        msg = f"every live parameter has a range: {name} has none"
+        raise InvariantError(msg)
+    return max(r.low(values) for r in own), min(r.high(values) for r in own)
+
+
+def _slider(kit: Kit, name: str, step: float) -> str:
+    """Range at the defaults, on a grid of steps that the default is on too."""
+    low, high = limits(kit, name, kit.values)
+    default = kit.values[name]
+    high = min(high, max(_LONGEST, 2 * default))
+    while step > 1e-4 and abs(default / step - round(default / step)) > 1e-6:
+        step /= 10
+    # Nudged by a millionth of a step: bounds that are on the grid stay on it.
+    first = math.ceil(low / step - 1e-6) * step
+    last = math.floor(high / step + 1e-6) * step
+    return "[" + ":".join(literal(round(x, 6)) for x in (first, step, last)) + "]"
+
+
+def parameter_sets(kit: Kit) -> str:
+    """JSON file of parameter sets that the Customizer finds beside the ``.scad``.
+
+    Every set is inside the kit's ranges; one that cannot be is left out.
+
+    Returns
+    -------
+    text
+        JSON, all values strings as OpenSCAD wants them.
+    """
+    defaults = {p.name: p.value.strip('"') for s in sections(kit) for p in s.parameters}
+    gaps = [name for name in ("clearance", "peg_clearance") if name in kit.values]
+    lengths = [name for name in kit.values if name not in gaps]
+    sets = {
+        "default": defaults,
+        "tight fit": _scaled(kit, defaults, gaps, 0.75),
+        "loose fit": _scaled(kit, defaults, gaps, 1.5),
+        "half size": _scaled(kit, defaults, lengths, 0.5),
+        "double size": _scaled(kit, defaults, lengths, 2.0),
+        "short edges": _scaled(kit, defaults, ["edge_length"], 0.75),
+        "exploded joint": defaults | {"part": "joint_exploded"},
+        "whole frame": defaults | {"part": "frame"},
+        "print plate": defaults | {"part": "plate"},
+        "coupon": defaults | {"part": "coupon"},
+    }
+    kept = {name: values for name, values in sets.items() if values is not None}
+    return json.dumps({"fileFormatVersion": "1", "parameterSets": kept}, indent=2) + "\n"
+
+
+def _scaled(
+    kit: Kit, defaults: Mapping[str, str], names: list[str], factor: float
+) -> dict[str, str] | None:
+    """Set with some live parameters scaled, or None if a range forbids it."""
+    values = {n: round(v * factor, 3) if n in names else v for n, v in kit.values.items()}
+    for name, value in values.items():
+        low, high = limits(kit, name, values)
+        if not low <= value <= high:
+            return None
+    return {**defaults, **{name: literal(value) for name, value in values.items()}}

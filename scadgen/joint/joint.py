@@ -1,0 +1,153 @@
+"""One joint: a ring decomposed into connectors, one of which can be split."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from scadgen.errors import GeometryError
+from scadgen.joint.fan import fanned
+from scadgen.joint.lattice import Lattice, make_lattice, without_corners
+from scadgen.joint.pieces import SPLIT, halves
+from scadgen.joint.place import distances, place
+from scadgen.joint.surface import Surface, half_turn, join, simplify
+from scadgen.joint.territory import belongs, share
+from scadgen.joint.tidy import corners_in_the_way, merge_short_sides
+from scadgen.joint.walls import Key, wedges
+from scadgen.joint.weave import SiteCurve, Weave
+from scadgen.solid.affine import Floats
+
+__all__ = ["DETAILS", "Detail", "Joint", "check_footprint", "make_joint", "site_curves"]
+
+
+@dataclass(frozen=True, slots=True)
+class Detail:
+    """How finely a joint is resolved.
+
+    Parameters
+    ----------
+    samples
+        Samples of each site curve.
+    cells
+        Cells of the lattice across the side; odd.
+    """
+
+    samples: int
+    cells: int
+
+
+#: The levels of detail by name.
+DETAILS: Mapping[str, Detail] = MappingProxyType(
+    {"draft": Detail(60, 5), "standard": Detail(120, 9), "fine": Detail(240, 17)}
+)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Joint:
+    """A joint's pieces, in sides.
+
+    Parameters
+    ----------
+    edges
+        Directions of its edges, ascending, in [0, 2 pi).
+    weave
+        Its weave.
+    lattice
+        The lattice its walls were found on.
+    curves
+        Its site curves, one an edge.
+    connectors
+        For each edge, its connector with the edge turned to +x.
+    halves
+        For each edge, half A and half B of its connector, turned likewise.
+    """
+
+    edges: Floats
+    weave: Weave
+    lattice: Lattice
+    curves: tuple[SiteCurve, ...]
+    connectors: tuple[Surface, ...]
+    halves: tuple[tuple[Surface, Surface], ...]
+
+
+def site_curves(edges: Floats, weave: Weave, samples: int) -> tuple[SiteCurve, ...]:
+    """The site curve of each edge."""
+    after = np.diff(np.append(edges, edges[0] + 2 * np.pi))
+    before = np.roll(after, 1)
+    return tuple(
+        SiteCurve(weave, float(angle), float(a), float(b), samples)
+        for angle, a, b in zip(edges, after, before, strict=True)
+    )
+
+
+def make_joint(edges: Sequence[float], weave: Weave, detail: Detail, extra: int = 0) -> Joint:
+    """Decompose a ring into the connectors of its edges.
+
+    Parameters
+    ----------
+    edges
+        Directions of the edges, ascending, in [0, 2 pi), at least two.  When they divide
+        the circle evenly, one half is computed and turned into all others.
+    weave
+        Its weave.
+    detail
+        How finely.
+    extra
+        Cells to add to the lattice in each gap; even.  Another lattice cuts the same walls
+        elsewhere, which may let them draw back further.
+
+    Raises
+    ------
+    InputError
+        Directions that do not ascend.
+    GeometryError
+        The ring is too small for its tubes, or the weave makes a connector that falls
+        apart, whose halves hang together, or that does not own all of its tube's face.
+    """
+    lattice = make_lattice(edges, weave.ring_ratio, detail.cells, extra)
+    curves = site_curves(lattice.edges, weave, detail.samples)
+    lattice = without_corners(lattice, corners_in_the_way(lattice, curves))
+    even = np.allclose(np.diff(lattice.edges), 2 * math.pi / len(lattice.edges), rtol=0, atol=1e-12)
+    computed = range(1 if even else len(lattice.edges))
+    for edge in computed:
+        check_footprint(lattice, curves, edge)
+    far = distances(curves, lattice.nodes)
+    labels = far.argmin(axis=0)
+    walls = list(wedges(lattice, labels))
+    keys = sorted({corner for wedge in walls for corner in wedge.corners})
+    position: dict[Key, Floats] = dict(zip(keys, place(lattice, curves, far, keys), strict=True))
+    walls = merge_short_sides(walls, position, 1 / detail.cells)
+    walls = fanned(walls, position, curves)
+    for index in np.ndindex(labels.shape):
+        position["node", 0, index[0], index[1], index[2]] = lattice.nodes[index]
+    pairs = [halves(lattice, labels, walls, position, edge) for edge in computed]
+    if even:
+        pairs = [(pairs[0][0], half_turn(pairs[0][0]))] * len(lattice.edges)
+    whole = [simplify(join(a, b, SPLIT)) for a, b in (pairs[:1] if even else pairs)]
+    connectors = whole * (len(pairs) if even else 1)
+    return Joint(lattice.edges, weave, lattice, curves, tuple(connectors), tuple(pairs))
+
+
+def check_footprint(lattice: Lattice, curves: Sequence[SiteCurve], edge: int) -> None:
+    """Prove that a tube's face belongs to its connector alone.
+
+    Raises
+    ------
+    GeometryError
+        It does not: says what share of it does.
+    """
+    low, high = np.array([lattice.tube_start, -0.5, -0.5]), np.array([lattice.tube_start, 0.5, 0.5])
+    angle = float(lattice.edges[edge])
+    turned = tuple(curve.turned(-angle) for curve in curves)
+    if belongs(turned, edge, low, high, margin=0.0):
+        return
+    grid = np.stack(np.meshgrid(low[:1], *[np.linspace(-0.5, 0.5, 41)] * 2), axis=-1).reshape(-1, 3)
+    msg = (
+        f"weave {curves[edge].weave.name}: only {share(turned, edge, grid):.1%} of a tube's face "
+        "belongs to its own connector; a smaller span or a smaller bend helps"
+    )
+    raise GeometryError(msg)

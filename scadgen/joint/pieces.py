@@ -1,0 +1,241 @@
+"""Connectors and halves out of the walls.
+
+A connector's surface is the walls between its label and others, and the parts of the
+domain's facets that carry its label.  It is cut open along the vertical plane through its
+edge, which gives the two halves.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from scadgen.errors import GeometryError
+from scadgen.joint.lattice import Lattice
+from scadgen.joint.surface import Surface, simplify
+from scadgen.joint.walls import Facet, Key, Wedge, facet_of_face
+from scadgen.solid.affine import Floats, Ints
+
+__all__ = ["PAD", "SPLIT", "TUBE", "halves"]
+
+#: The facets where the tube stands, where the halves part, and opposite the tube.
+TUBE: Facet = ("outer", 0)
+SPLIT: Facet = ("split", 0)
+PAD: Facet = ("inner", 0)
+
+_Index = tuple[int, int, int]
+
+#: A vertex of the cut-open surface: its key, and the side of the cut for those on it.
+_Sided = tuple[Key, int]
+
+
+def halves(
+    lattice: Lattice,
+    labels: Ints,
+    walls: Sequence[Wedge],
+    position: dict[Key, Floats],
+    edge: int,
+) -> tuple[Surface, Surface]:
+    """Half A (counter-clockwise of its edge) and half B of one connector.
+
+    Parameters
+    ----------
+    lattice, labels
+        The lattice and its nodes' labels.
+    walls
+        All polygons of all walls.
+    position
+        Where each vertex is, nodes included, in sides.
+    edge
+        Number of the connector's edge.
+
+    Raises
+    ------
+    GeometryError
+        The connector falls apart, or its halves hang together.
+    """
+    cut = _Cut(lattice, labels, edge)
+    polygons: list[tuple[_Sided, ...]] = []
+    sides: dict[Facet, list[tuple[_Sided, _Sided]]] = defaultdict(list)
+    for wedge in walls:
+        if edge in (wedge.low, wedge.high):
+            polygons.append(cut.wall(wedge))
+            for facet, start, stop in cut.wall_borders(wedge):
+                sides[facet].append((start, stop))
+    for facet, start, stop in cut.domain_sides(position):
+        sides[facet].append((start, stop))
+    return _parted(polygons, sides, position, float(lattice.edges[edge]))
+
+
+class _Cut:
+    """One label's surface, cut open along the plane through its edge.
+
+    Each vertex on that plane exists twice; which of the two a polygon or a side takes is
+    told by the angular cell it lies in.
+    """
+
+    def __init__(self, lattice: Lattice, labels: Ints, edge: int) -> None:
+        self._lattice = lattice
+        self._label = edge
+        self._labels = labels
+        self._plane = int(lattice.edge_planes[edge])
+
+    def _sided(self, key: Key, cell: int) -> _Sided:
+        kind, axis, i, _, _ = key
+        on_plane = i == self._plane and (
+            kind == "node" or (kind == "edge" and axis != 0) or (kind == "face" and axis == 0)
+        )
+        return key, (1 if cell == self._plane else -1) if on_plane else 0
+
+    def _facet(self, facet: Facet, cell: int) -> Facet | None:
+        """The facet under the connector's own numbering; none for another edge's plane."""
+        kind, number = facet
+        if kind == "split":
+            own = number == self._label
+            return ("split", 1 if cell == self._plane else -1) if own else None
+        if kind in ("top", "bottom"):
+            return facet
+        side = int(kind == "outer")
+        count = int(self._lattice.strips[side].max()) + 1
+        offset = number - self._lattice.flat(side, self._label)
+        return kind, (offset + count // 2) % count - count // 2
+
+    def wall(self, wedge: Wedge) -> tuple[_Sided, ...]:
+        """A wall's polygon, counter-clockwise from outside, with the same first corner."""
+        corners = tuple(self._sided(key, wedge.sector) for key in wedge.corners)
+        return corners if wedge.low == self._label else (corners[0], *corners[:0:-1])
+
+    def wall_borders(self, wedge: Wedge) -> Iterator[tuple[Facet, _Sided, _Sided]]:
+        """Those sides of the connector's facets that are a wall's borders."""
+        for found, start, stop in wedge.borders:
+            facet = self._facet(found, wedge.sector)
+            if facet:
+                ends = self._sided(stop, wedge.sector), self._sided(start, wedge.sector)
+                yield facet, *(ends if wedge.low == self._label else ends[::-1])
+
+    def domain_sides(self, position: dict[Key, Floats]) -> Iterator[tuple[Facet, _Sided, _Sided]]:
+        """Those sides of the connector's facets that are edges of the domain or the cut."""
+        for axis, index, faces in self._domain_edges():
+            ends = self._part_of_edge(axis, index)
+            if ends is None:
+                continue
+            line = position[ends[1]] - position[ends[0]]
+            for normal, face, cell in faces:
+                facet = self._facet(facet_of_face(self._lattice, normal, face) or SPLIT, cell)
+                outward, middle = self._face_frame(normal, face, cell)
+                inward = np.cross(outward, line) @ (middle - position[ends[0]])
+                start, stop = ends if inward > 0 else ends[::-1]
+                if facet:
+                    yield facet, self._sided(start, cell), self._sided(stop, cell)
+
+    def _part_of_edge(self, axis: int, index: _Index) -> tuple[Key, Key] | None:
+        """The ends of that part of a lattice edge that carries the label."""
+        after = list(index)
+        after[axis] = (after[axis] + 1) % (len(self._lattice.planes) if axis == 0 else 1 << 30)
+        nodes: tuple[Key, Key] = ("node", 0, *index), ("node", 0, after[0], after[1], after[2])
+        has = [int(self._labels[node[2:]]) == self._label for node in nodes]
+        if not any(has):
+            return None
+        middle: Key = ("edge", axis, *index)
+        return nodes[0] if has[0] else middle, nodes[1] if has[1] else middle
+
+    def _domain_edges(self) -> Iterator[tuple[int, _Index, list[tuple[int, _Index, int]]]]:
+        """Lattice edges between two facets: axis, index, faces (normal, index, cell)."""
+        planes, radii, heights = (n - 1 for n in self._lattice.nodes.shape[:3])
+        planes += 1
+        for i, j, k in itertools.product(range(planes), (0, radii), (0, heights)):
+            across, down = min(j, radii - 1), min(k, heights - 1)
+            yield 0, (i, j, k), [(1, (i, j, down), i), (2, (i, across, k), i)]
+        strips = self._lattice.strips
+        for i, j, k in itertools.product(range(planes), (0, radii), range(heights)):
+            if strips[min(j, 1), i] != strips[min(j, 1), i - 1]:
+                before = (i - 1) % planes
+                yield 2, (i, j, k), [(1, (before, j, k), before), (1, (i, j, k), i)]
+        own = self._plane
+        for cell in (own, (own - 1) % planes):
+            for j, k in itertools.product((0, radii), range(heights)):
+                beside = (0, (own, min(j, radii - 1), k), cell)
+                yield 2, (own, j, k), [beside, (1, (cell, j, k), cell)]
+            for j, k in itertools.product(range(radii), (0, heights)):
+                beside = (0, (own, j, min(k, heights - 1)), cell)
+                yield 1, (own, j, k), [beside, (2, (cell, j, k), cell)]
+
+    def _face_frame(self, normal: int, face: _Index, cell: int) -> tuple[Floats, Floats]:
+        """A direction out of the connector through a lattice face, and the face's middle."""
+        i, j, k = face
+        nodes = self._lattice.nodes
+        after = (i + 1) % len(nodes)
+        if normal == 0:
+            middle = nodes[i, j : j + 2, k : k + 2].mean(axis=(0, 1))
+            ahead = np.array([-middle[1], middle[0], 0.0])
+            return (-ahead if cell == self._plane else ahead), middle
+        if normal == 1:
+            middle = nodes[[i, after], j, k : k + 2].mean(axis=(0, 1))
+            out = middle * [1.0, 1.0, 0.0]
+            return (out if j else -out), middle
+        middle = nodes[[i, after], j : j + 2, k].mean(axis=(0, 1))
+        return np.array([0.0, 0.0, 1.0 if k else -1.0]), middle
+
+
+def _parted(
+    polygons: Sequence[tuple[_Sided, ...]],
+    sides: dict[Facet, list[tuple[_Sided, _Sided]]],
+    position: dict[Key, Floats],
+    angle: float,
+) -> tuple[Surface, Surface]:
+    """Number the vertices and tell the two halves apart."""
+    names = sorted(
+        {v for corners in polygons for v in corners}.union(*itertools.chain(*sides.values()))
+    )
+    number = {name: n for n, name in enumerate(names)}
+    points = np.array([position[key] for key, _ in names])
+    c, s = np.cos(angle), np.sin(angle)
+    points = points @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    walls = [
+        tuple(number[v] for v in triangle) for corners in polygons for triangle in _fan(corners)
+    ]
+    triangles = np.array(walls, dtype=int).reshape(-1, 3)
+    outlines = {
+        facet: np.array([(number[a], number[b]) for a, b in pairs], dtype=int)
+        for facet, pairs in sorted(sides.items())
+    }
+    links = np.concatenate([triangles[:, :2], triangles[:, 1:], *outlines.values()])
+    graph = coo_matrix((np.ones(len(links)), links.T), shape=(len(names), len(names)))
+    count, part = connected_components(graph, directed=False)
+    of_side = [
+        {int(part[number[v]]) for v in itertools.chain(*sides.get(("split", side), ()))}
+        for side in (1, -1)
+    ]
+    if of_side[0] & of_side[1]:
+        msg = "the halves of a connector hang together behind the ring's hole; a smaller span helps"
+        raise GeometryError(msg)
+    if count != 2 or len(of_side[0]) != 1 or len(of_side[1]) != 1:
+        msg = (
+            f"a connector falls apart into {count - 1} pieces; "
+            "a smaller amplitude or fewer periods help"
+        )
+        raise GeometryError(msg)
+    first, second = (
+        _component(points, triangles, outlines, part == found.pop()) for found in of_side
+    )
+    return simplify(first), simplify(second)
+
+
+def _component(points: Floats, walls: Ints, outlines: dict[Facet, Ints], mine: Ints) -> Surface:
+    """The part of a surface on the chosen vertices, its split facet under one name."""
+    kept = {
+        SPLIT if facet[0] == "split" else facet: sides[mine[sides[:, 0]]]
+        for facet, sides in outlines.items()
+        if mine[sides[:, 0]].any()
+    }
+    return Surface(points, walls[mine[walls[:, 0]]], kept)
+
+
+def _fan(corners: Sequence[_Sided]) -> list[tuple[_Sided, _Sided, _Sided]]:
+    """Triangles of a polygon, all from its first corner."""
+    return [(corners[0], a, b) for a, b in itertools.pairwise(corners[1:])]

@@ -1,0 +1,156 @@
+"""Where the walls' vertices are: on the exact walls.
+
+A vertex stands for a lattice edge, face or cell whose nodes carry two or more labels.  It is
+the point in that edge's line, face's plane, or in space where those labels' curves are
+equally far: found by Newton's method from the middle of the places where walls cross the
+feature's edges.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scadgen.joint.lattice import Lattice
+from scadgen.joint.walls import Key
+from scadgen.joint.weave import SiteCurve
+from scadgen.solid.affine import Floats, Ints
+
+__all__ = ["distances", "place"]
+
+#: Newton steps; they converge quadratically from within a cell.
+_STEPS = 6
+
+#: How far a vertex may move from where it starts, in diameters of its feature.
+_STRAY = 0.5
+
+
+def distances(curves: Sequence[SiteCurve], points: Floats) -> Floats:
+    """Distance of points from each curve.
+
+    Parameters
+    ----------
+    points
+        ``(..., 3) float``, in sides.
+
+    Returns
+    -------
+    distances
+        ``(curves, ...) float``, in sides.
+    """
+    flat = points.reshape(-1, 3)
+    found = np.stack([curve.distance(flat)[0] for curve in curves])
+    return found.reshape(len(curves), *points.shape[:-1])
+
+
+def place(
+    lattice: Lattice, curves: Sequence[SiteCurve], far: Floats, keys: Sequence[Key]
+) -> Floats:
+    """Positions of vertices.
+
+    Parameters
+    ----------
+    lattice, curves
+        The joint's lattice and site curves.
+    far
+        ``(curves, planes, radii, heights) float``: distance of each node from each curve.
+    keys
+        The vertices.
+
+    Returns
+    -------
+    points
+        ``(len(keys), 3) float``, in sides.
+    """
+    points = np.empty((len(keys), 3))
+    kinds = [(key[0], key[1]) for key in keys]
+    for kind in set(kinds):
+        rows = [n for n, other in enumerate(kinds) if other == kind]
+        index = np.array([keys[n][2:5] for n in rows])
+        points[rows] = _place_kind(lattice, curves, far, _axes(kind), index)
+    return points
+
+
+def _axes(kind: tuple[str, int]) -> tuple[int, ...]:
+    """The axes along which a feature extends."""
+    name, axis = kind
+    extent = {"node": (), "edge": (axis,), "cell": (0, 1, 2)}
+    return extent.get(name) or (() if name == "node" else tuple({0, 1, 2} - {axis}))
+
+
+def _place_kind(
+    lattice: Lattice,
+    curves: Sequence[SiteCurve],
+    far: Floats,
+    axes: tuple[int, ...],
+    index: Ints,
+) -> Floats:
+    """Positions of all vertices that stand for features along the same axes."""
+    shifts = np.zeros((2 ** len(axes), 3), dtype=int)
+    shifts[:, list(axes)] = list(itertools.product((0, 1), repeat=len(axes)))
+    i, j, k = np.moveaxis(index[:, None] + shifts, -1, 0)
+    i %= len(lattice.planes)
+    corners, far = lattice.nodes[i, j, k], np.moveaxis(far[:, i, j, k], 0, -1)
+    if not axes:
+        return np.asarray(corners[:, 0])
+    start = _middle_of_crossings(shifts, corners, far)
+    seen = np.zeros((len(index), len(curves)), dtype=bool)
+    np.put_along_axis(seen, far.argmin(-1), values=True, axis=1)
+    size = np.linalg.norm(corners[:, -1] - corners[:, 0], axis=1)
+    found = _meet(curves, seen, start, _basis(corners, len(axes)))
+    stray = np.linalg.norm(found - start, axis=1) > _STRAY * size
+    return np.where(stray[:, None], start, found)
+
+
+def _middle_of_crossings(shifts: Ints, corners: Floats, far: Floats) -> Floats:
+    """Mean of where walls cross each feature's edges, by linear interpolation."""
+    total = np.zeros_like(corners[:, 0])
+    count = np.zeros(len(corners))
+    label = far.argmin(-1)
+    row = np.arange(len(corners))
+    for a, b in itertools.combinations(range(len(shifts)), 2):
+        if np.abs(shifts[a] - shifts[b]).sum() != 1:
+            continue
+        la, lb = label[:, a], label[:, b]
+        at_a = far[row, a, lb] - far[row, a, la]
+        at_b = far[row, b, la] - far[row, b, lb]
+        crossed = la != lb
+        share = np.where(crossed, at_a / np.where(crossed, at_a + at_b, 1.0), 0.0)
+        total += crossed[:, None] * (
+            corners[:, a] + share[:, None] * (corners[:, b] - corners[:, a])
+        )
+        count += crossed
+    return np.asarray(total / count[:, None])
+
+
+def _basis(corners: Floats, dimensions: int) -> Floats:
+    """Orthonormal directions in which each vertex may move, ``(m, dimensions, 3)``."""
+    if dimensions == 3:
+        return np.broadcast_to(np.eye(3), (len(corners), 3, 3))
+    first = corners[:, -1] - corners[:, 0]
+    first = first / np.linalg.norm(first, axis=1)[:, None]
+    if dimensions == 1:
+        return np.asarray(first[:, None])
+    second = corners[:, 2] - corners[:, 1]
+    second = second - np.einsum("ij,ij->i", second, first)[:, None] * first
+    return np.stack([first, second / np.linalg.norm(second, axis=1)[:, None]], axis=1)
+
+
+def _meet(curves: Sequence[SiteCurve], seen: NDArray[np.bool_], start: Floats, basis: Floats) -> Floats:
+    """Points nearest the start, within the basis, equally far from all curves seen."""
+    points = start
+    row = np.arange(len(start))
+    reference = seen.argmax(axis=1)
+    for _ in range(_STEPS):
+        found = [curve.distance(points) for curve in curves]
+        far = np.stack([d for d, _ in found], axis=1)
+        slope = np.stack([g for _, g in found], axis=1)
+        excess = np.where(seen, far - far[row, reference][:, None], 0.0)
+        slope = np.where(seen[..., None], slope - slope[row, reference][:, None], 0.0)
+        within = np.einsum("mlx,mdx->mld", slope, basis)
+        step = np.einsum("mdl,ml->md", np.linalg.pinv(within, rcond=1e-6), excess)
+        points = points - np.einsum("md,mdx->mx", step, basis)
+    return points

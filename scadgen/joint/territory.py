@@ -1,0 +1,89 @@
+"""Proofs that a box belongs to one connector alone.
+
+The distance from a curve changes by no more than the distance moved, so the difference of
+two changes by at most twice that.  A box whose middle is nearer to its own curve, by more
+than twice the box's half diagonal, than to any other is therefore all of one label; other
+boxes are halved until that is so, or one is found that is not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from scadgen.joint.lattice import Lattice
+from scadgen.joint.place import distances
+from scadgen.joint.weave import SiteCurve
+from scadgen.solid.affine import Floats
+
+__all__ = ["arm", "belongs", "share"]
+
+#: Halvings of a box before it counts as foreign; its half diagonal is then below 1e-3 sides.
+_HALVINGS = 10
+
+
+def belongs(
+    curves: Sequence[SiteCurve], own: int, low: Floats, high: Floats, margin: float
+) -> bool:
+    """Whether every point of a box is in one cell, and a margin away from its walls.
+
+    Parameters
+    ----------
+    curves
+        The joint's site curves.
+    own
+        The cell's curve.
+    low, high
+        Corners of the box, ``(3,) float``; a box may be flat.
+    margin
+        Distance to the walls, in sides, at least zero.
+    """
+    middle, extent = ((low + high) / 2)[None], (high - low) / 2
+    for _ in range(_HALVINGS):
+        lead = _lead(curves, own, middle)
+        if (lead <= 2 * margin).any():
+            return False
+        middle = middle[lead <= 2 * (margin + float(np.linalg.norm(extent)))]
+        if not len(middle):
+            return True
+        signs = np.array(np.meshgrid(*([-0.5, 0.5] if e > 0 else [0.0] for e in extent)))
+        middle = (middle[:, None] + extent * signs.reshape(3, -1).T).reshape(-1, 3)
+        extent = extent / 2
+    return False
+
+
+def share(curves: Sequence[SiteCurve], own: int, points: Floats) -> float:
+    """Share of points that are in one cell."""
+    return float((_lead(curves, own, points) > 0).mean())
+
+
+def _lead(curves: Sequence[SiteCurve], own: int, points: Floats) -> Floats:
+    """How much nearer points are to their own curve than to any other."""
+    far = distances(curves, points)
+    return np.asarray(np.delete(far, own, axis=0).min(axis=0) - far[own])
+
+
+def arm(lattice: Lattice, curves: Sequence[SiteCurve], edge: int) -> float:
+    """Thinnest place of a connector's arms between its edge and the middles of its gaps.
+
+    At each plane of the lattice, the widest ball that is known to fit into the arm there: its
+    radius is at least the distance to the ring's faces, and at least half the lead of the
+    connector's curve.  Beyond the middle of a gap an arm thins out to its tip by design.
+
+    Returns
+    -------
+    thickness
+        In sides.
+    """
+    count = len(lattice.planes)
+    edges = lattice.edge_planes
+    after, before = (int(edges[(edge + turn) % len(edges)]) for turn in (1, -1))
+    own = int(edges[edge])
+    ahead, behind = ((after - own) % count or count) // 2, ((own - before) % count or count) // 2
+    planes = np.arange(own - behind, own + ahead + 1) % count
+    nodes = lattice.nodes[planes]
+    share = np.linspace(0, 1, nodes.shape[1])
+    face = np.minimum.outer(np.minimum(share, 1 - share), np.minimum(share, 1 - share))
+    ball = np.minimum(_lead(curves, edge, nodes.reshape(-1, 3)).reshape(nodes.shape[:3]) / 2, face)
+    return float(2 * ball.max(axis=(1, 2)).min())

@@ -1,0 +1,204 @@
+"""Weaves and the site curves they make.
+
+A site curve is the sinusoid that one connector grows around; see ``docs/geometry.md``,
+step 2.  Lengths are in units of the side, angles in radians.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from scadgen.errors import InputError
+from scadgen.solid.affine import Floats
+
+__all__ = ["BUILT_IN", "SiteCurve", "Weave"]
+
+#: What each weave parameter may be: (low, high).
+_LIMITS: Mapping[str, tuple[float, float]] = {
+    "ring_ratio": (0.8, 8.0),
+    "span": (0.1, 1.5),
+    "amplitude": (0.0, 1.0),
+    "bend": (0.0, 1.5),
+    "periods": (0.25, 4.0),
+}
+
+#: Newton steps to the nearest point; quadratic from a sample's distance, so 1e-15 after 6.
+_STEPS = 6
+
+
+@dataclass(frozen=True, slots=True)
+class Weave:
+    """The shape of the site curves and of the ring they run in.
+
+    Parameters
+    ----------
+    ring_ratio
+        Distance of the ring's centre line from its axis, in sides.
+    span
+        How far a curve runs, as a share of the gap to the neighbouring edge.
+    amplitude
+        How far it rises and dips, in sides.
+    bend
+        Ring ratio over the radius of its arc in plan: 0 is straight, 1 follows the ring.
+    periods
+        Half waves on each side of the edge.
+    name
+        What to call it.
+
+    Raises
+    ------
+    InputError
+        A parameter is not a finite number in its range.
+    """
+
+    ring_ratio: float
+    span: float
+    amplitude: float
+    bend: float
+    periods: float
+    name: str = field(default="custom", compare=False)
+
+    def __post_init__(self) -> None:
+        """Refuse what no curve can be made of."""
+        for key, (low, high) in _LIMITS.items():
+            value = getattr(self, key)
+            number = isinstance(value, int | float) and not isinstance(value, bool)
+            if not number or not low <= value <= high:
+                msg = f"weave: {key} = {value!r}: must be a number from {low:g} to {high:g}"
+                raise InputError(msg)
+
+    @classmethod
+    def from_dict(cls, entries: object, name: str) -> Weave:
+        """Read a weave from a JSON object.
+
+        Raises
+        ------
+        InputError
+            It is not an object with just the weave's parameters.
+        """
+        wanted = {f.name for f in fields(cls)} - {"name"}
+        if not isinstance(entries, dict) or set(entries) - {"name"} != wanted:
+            msg = f"weave {name}: must be a JSON object with {', '.join(sorted(wanted))}"
+            raise InputError(msg)
+        return cls(**{key: entries[key] for key in wanted}, name=name)
+
+    def as_dict(self) -> dict[str, float | str]:
+        """Name and parameters, as JSON writes them."""
+        return asdict(self)
+
+
+class SiteCurve:
+    """One connector's site: a sinusoid on an arc, up on one side and down on the other.
+
+    Parameters
+    ----------
+    weave
+        Its shape.
+    angle
+        Direction of its edge.
+    gap_after, gap_before
+        Angle to the next edge counter-clockwise and clockwise.
+    samples
+        Points from which nearest points are sought; they decide which of several
+        nearly equal distances is looked at, not how exact it is.
+    """
+
+    def __init__(
+        self, weave: Weave, angle: float, gap_after: float, gap_before: float, samples: int
+    ) -> None:
+        self.weave = weave
+        self._arguments = (gap_after, gap_before, samples)
+        self._angle = angle
+        self._turn = (math.cos(angle), math.sin(angle))
+        self._reach = (
+            gap_before * weave.span * weave.ring_ratio,
+            gap_after * weave.span * weave.ring_ratio,
+        )
+        self._parameters = np.linspace(-1.0, 1.0, samples)
+        self._tree = cKDTree(self.points(self._parameters))
+
+    def turned(self, angle: float) -> SiteCurve:
+        """The curve turned about the ring's axis."""
+        gap_after, gap_before, samples = self._arguments
+        return SiteCurve(self.weave, self._angle + angle, gap_after, gap_before, samples)
+
+    def points(self, u: Floats) -> Floats:
+        """Points of the curve: ``u`` in [-1, 1], shape ``(...)``, gives ``(..., 3)``."""
+        return self._derivatives(u)[0]
+
+    def _derivatives(self, u: Floats) -> tuple[Floats, Floats, Floats]:
+        """Position, first and second derivative by ``u``, each ``(..., 3)``."""
+        weave = self.weave
+        rate = np.where(u >= 0, self._reach[1], self._reach[0])
+        length = u * rate
+        bend = weave.bend / weave.ring_ratio
+        turn = length * bend
+        # (1 - cos t)/b and (sin t)/b written so that a straight curve (b = 0) is no special case.
+        half = np.sinc(turn / (2 * np.pi))
+        x = weave.ring_ratio - 0.5 * length * turn * half**2
+        y = length * np.sinc(turn / np.pi)
+        wave = math.pi * weave.periods
+        lift = weave.amplitude
+        place = (x, y, lift * np.sin(wave * u))
+        first = (-rate * np.sin(turn), rate * np.cos(turn), lift * wave * np.cos(wave * u))
+        pull = rate**2 * bend
+        second = (
+            -pull * np.cos(turn),
+            -pull * np.sin(turn),
+            -lift * wave**2 * np.sin(wave * u),
+        )
+        return self._turned(place), self._turned(first), self._turned(second)
+
+    def _turned(self, vector: tuple[Floats, Floats, Floats]) -> Floats:
+        x, y, z = vector
+        c, s = self._turn
+        return np.stack([c * x - s * y, s * x + c * y, z], axis=-1)
+
+    def distance(self, points: Floats) -> tuple[Floats, Floats]:
+        """Distance from the curve, and its gradient.
+
+        Parameters
+        ----------
+        points
+            ``(k, 3) float``, in sides.
+
+        Returns
+        -------
+        distance
+            ``(k,) float``.
+        gradient
+            ``(k, 3) float``, unit vectors away from the nearest point.
+        """
+        _, nearest = self._tree.query(points)
+        u = self._parameters[nearest]
+        spacing = self._parameters[1] - self._parameters[0]
+        low, high = np.maximum(u - spacing, -1.0), np.minimum(u + spacing, 1.0)
+        for _ in range(_STEPS):
+            place, first, second = self._derivatives(u)
+            off = place - points
+            slope = np.einsum("ij,ij->i", off, first)
+            curvature = np.einsum("ij,ij->i", first, first) + np.einsum("ij,ij->i", off, second)
+            low, high = np.where(slope < 0, u, low), np.where(slope > 0, u, high)
+            convex = curvature > 0
+            step = u - slope / np.where(convex, curvature, 1.0)
+            u = np.clip(np.where(convex, step, 0.5 * (low + high)), low, high)
+        away = points - self.points(u)
+        distance = np.sqrt(np.einsum("ij,ij->i", away, away))
+        return distance, away / np.maximum(distance, np.finfo(float).tiny)[:, None]
+
+
+#: Weaves chosen by their figures; see the table in ``docs/geometry.md``.
+BUILT_IN: Mapping[str, Weave] = {
+    w.name: w
+    for w in (
+        Weave(1.504, 0.848, 0.336, 0.604, 1.409, name="hexagonal-fixed"),
+        Weave(1.5, 0.8, 0.15, 0.65, 1.0, name="hexagonal-loose"),
+        Weave(1.8, 0.9, 0.2, 0.5, 1.2, name="square-fixed"),
+        Weave(1.8, 0.9, 0.2, 0.5, 1.2, name="square-loose"),
+    )
+}

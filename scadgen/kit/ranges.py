@@ -1,0 +1,139 @@
+"""What the live parameters may be, each with its reason.
+
+Every bound is linear in the other parameters; the reasons it is safe are in
+``docs/geometry.md``, "Ranges".
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+
+from scadgen.element.squares import Key
+from scadgen.errors import InputError
+from scadgen.solid.affine import Linear, Range
+
+__all__ = ["WALL", "check_values", "ranges"]
+
+#: Thinnest wall anywhere beside a hole, in sides; 0.4 mm, one line of a nozzle, at side 10 mm.
+WALL = 0.04
+
+#: Shortest tube between two joints, in sides.
+_TUBE = 0.5
+
+#: What rounding of decimal input may take a value past its bound, in mm.
+_SLACK = 1e-9
+
+
+def ranges(key: Key, clearance_limit: float, hole: float) -> tuple[Range, ...]:
+    """The range of every live parameter of a kit.
+
+    Parameters
+    ----------
+    key
+        The key of its joints.
+    clearance_limit
+        Clearance up to which connectors and halves are proven sound, in sides.
+    hole
+        Free width of the ring's hole along the key's edge, in sides.
+    """
+    found = [
+        Range("side", Linear({}, 5.0), Linear({}, 100.0), "thinner walls do not print"),
+        Range(
+            "clearance",
+            Linear({}),
+            Linear({"side": clearance_limit}),
+            "wider, the walls of the connectors would turn over",
+        ),
+        Range("peg_clearance", Linear({}), Linear({"side": 0.1}), "wider, the peg would not hold"),
+        Range(
+            "peg_width",
+            Linear({"side": 0.15}),
+            Linear({"side": 2 * (key.window - WALL), "peg_clearance": -2.0}),
+            "the peg breaks, or the socket's walls do",
+        ),
+        Range(
+            "peg_chamfer",
+            Linear({"side": 0.01}),
+            Linear({"peg_width": 0.25}),
+            "the peg's tip keeps half its width",
+        ),
+        *(_fixed(key) if key.style == "fixed" else _loose(key, hole)),
+    ]
+    if key.bored:
+        found += [
+            Range(
+                "bore",
+                Linear({"side": 0.05}),
+                Linear({"peg_width": 1.0, "side": -4 * WALL}),
+                "the bore runs through the pegs",
+            ),
+            Range(
+                "peg_chamfer",
+                Linear({"side": 0.01}),
+                Linear({"peg_width": 0.5, "bore": -0.5, "side": -WALL}),
+                "the bore leaves the peg's tip a wall",
+            ),
+        ]
+    return tuple(found)
+
+
+def _fixed(key: Key) -> list[Range]:
+    depth = key.tube_start - key.pad - 2 * WALL if key.bored else key.depth - WALL
+    return [
+        Range(
+            "peg_length",
+            Linear({"side": 0.25}),
+            Linear({"side": depth, "peg_clearance": -1.0}),
+            "the peg slips out, or its socket breaks into a wall",
+        ),
+        Range(
+            "edge_length",
+            Linear({"side": 2 * key.tube_start + _TUBE, "clearance": 1.0}),
+            Linear({}, 2000.0),
+            "two joints need room, and half a side of tube between them",
+        ),
+    ]
+
+
+def _loose(key: Key, hole: float) -> list[Range]:
+    through = key.tube_start - key.pad
+    return [
+        Range(
+            "peg_length",
+            Linear({"side": through + 0.2, "clearance": 1.0}),
+            Linear({"side": hole - WALL, "peg_clearance": -2.0}),
+            "the peg reaches from the ring's hole into the tube, and fits into the hole",
+        ),
+        Range(
+            "edge_length",
+            Linear({"side": 2 * key.pad + _TUBE, "peg_length": 2.0, "peg_clearance": 2.0}),
+            Linear({}, 2000.0),
+            "the sockets at a tube's two ends must not meet",
+        ),
+    ]
+
+
+def check_values(limits: Iterable[Range], values: Mapping[str, float]) -> None:
+    """Refuse live parameters outside their ranges.
+
+    Raises
+    ------
+    InputError
+        The first that is not a finite number or not in its range: the value, and the range.
+    """
+    for name, value in values.items():
+        if not math.isfinite(value):
+            msg = f"{name} = {value:g}: must be a finite number of mm"
+            raise InputError(msg)
+    for limit in limits:
+        low, high, value = limit.low(values), limit.high(values), values[limit.parameter]
+        if not low - _SLACK <= value <= high + _SLACK:
+            others = sorted({*limit.low.terms, *limit.high.terms})
+            given = "".join(
+                f"{', ' if n else ' for '}{name} = {values[name]:g}"
+                for n, name in enumerate(others)
+            )
+            span = f"{low:.4g} to {high:.4g}" if low <= high else "less than is possible"
+            msg = f"{limit.parameter} = {value:g} mm: must be {span} mm{given} ({limit.reason})"
+            raise InputError(msg)

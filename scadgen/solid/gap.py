@@ -1,0 +1,96 @@
+"""How far apart two solids are, and how much they overlap.
+
+Both are asked of manifold3d, in double precision: its gap of two boxes 100 mm long is
+within 1e-13 mm of the truth.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from scadgen.errors import InputError, InvariantError
+from scadgen.solid.affine import Floats, Ints
+
+if TYPE_CHECKING:
+    from manifold3d import Manifold
+
+__all__ = ["overlap_volume", "smallest_gap"]
+
+
+def _manifold(points: Floats, triangles: Ints) -> Manifold:
+    """Hand a mesh over; what manifold3d refuses or finds inside out is a bug here."""
+    from manifold3d import Error, Manifold, Mesh64  # slow to import
+
+    mesh = Mesh64(
+        vert_properties=np.ascontiguousarray(points, dtype=np.float64),
+        tri_verts=np.ascontiguousarray(triangles, dtype=np.uint64),
+    )
+    solid = Manifold(mesh)
+    if solid.status() != Error.NoError:
+        msg = f"oriented 2-manifold: manifold3d refuses the mesh, {solid.status().name}"
+        raise InvariantError(msg)
+    if not solid.volume() > 0:
+        msg = f"positive volume: manifold3d finds {solid.volume():.6g} mm3"
+        raise InvariantError(msg)
+    return solid
+
+
+def smallest_gap(
+    points_a: Floats, triangles_a: Ints, points_b: Floats, triangles_b: Ints, limit: float
+) -> float:
+    """Smallest distance between two solids.
+
+    Parameters
+    ----------
+    points_a, points_b
+        ``(v, 3) float``, mm.
+    triangles_a, triangles_b
+        ``(m, 3) int``, closed and oriented.
+    limit
+        Distance in mm beyond which it need not be known, above 0; a tight one is fast.
+
+    Returns
+    -------
+    gap
+        In mm: 0 where the solids touch or overlap, `limit` where they are farther apart.
+
+    Raises
+    ------
+    InputError
+        If `limit` is not a finite number above 0.
+    InvariantError
+        If one of the meshes is not a solid.
+    """
+    if not 0 < limit < np.inf:
+        msg = f"limit of the gap is {limit} mm; it must be above 0 and finite"
+        raise InputError(msg)
+    one, other = _manifold(points_a, triangles_a), _manifold(points_b, triangles_b)
+    return float(one.min_gap(other, limit))
+
+
+def overlap_volume(
+    points_a: Floats, triangles_a: Ints, points_b: Floats, triangles_b: Ints
+) -> float:
+    """Volume that two solids have in common, in mm3.
+
+    Parameters
+    ----------
+    points_a, points_b
+        ``(v, 3) float``, mm.
+    triangles_a, triangles_b
+        ``(m, 3) int``, closed and oriented.
+
+    Returns
+    -------
+    volume
+        In mm3; 0 where they only touch.
+
+    Raises
+    ------
+    InvariantError
+        If one of the meshes is not a solid.
+    """
+    common = _manifold(points_a, triangles_a) ^ _manifold(points_b, triangles_b)
+    return float(common.volume())

@@ -1,0 +1,88 @@
+"""Reads a binary STL back, to see whether what was written is one closed surface."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from scadgen.errors import ToolError
+from scadgen.solid.affine import Floats, Ints
+from scadgen.solid.mesh import edge_faults, volume, weld_float32
+
+__all__ = ["check_stl", "read_stl"]
+
+#: Length of the header, and of the count behind it, in bytes.
+_HEADER = 80
+_START = 84
+
+_FACE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+
+
+def read_stl(path: Path) -> tuple[Floats, Ints]:
+    """Read a binary STL; corners with exactly the same coordinates become one point.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    Returns
+    -------
+    points
+        ``(v, 3) float``, mm, sorted.
+    triangles
+        ``(m, 3) int``, counter-clockwise seen from outside.
+
+    Raises
+    ------
+    ToolError
+        If it is not a whole binary STL, or has a coordinate that is not finite.
+    """
+    data = path.read_bytes()
+    count = int.from_bytes(data[_HEADER:_START], "little")
+    if len(data) < _START or len(data) != _START + count * _FACE.itemsize:
+        msg = f"{path}: {len(data)} bytes: not a whole binary STL"
+        raise ToolError(msg)
+    corners = np.frombuffer(data, _FACE, count, _START)["corners"].reshape(-1, 3)
+    if not np.isfinite(corners).all():
+        msg = f"{path}: a coordinate is not finite"
+        raise ToolError(msg)
+    points, triangles = weld_float32(
+        corners.astype(np.float64), np.arange(3 * count, dtype=np.int64).reshape(-1, 3)
+    )
+    return points.astype(np.float64), triangles
+
+
+def check_stl(path: Path) -> float:
+    """Check that a binary STL is watertight and give its volume.
+
+    Watertight: every directed edge occurs exactly once, and so does its opposite.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    Returns
+    -------
+    volume
+        In mm3, more than zero.
+
+    Raises
+    ------
+    ToolError
+        If the file is broken, empty, not watertight, or inside out.
+    """
+    points, triangles = read_stl(path)
+    if not len(triangles):
+        msg = f"{path}: has no triangles"
+        raise ToolError(msg)
+    if len(faults := edge_faults(triangles)):
+        place = points[faults[0, 0]].tolist()
+        msg = f"{path}: not watertight: {len(faults)} faulty edges, the first at {place} mm"
+        raise ToolError(msg)
+    if not (enclosed := volume(points, triangles)) > 0:
+        msg = f"{path}: volume = {enclosed:.6g} mm3: must be above 0; the faces look inwards"
+        raise ToolError(msg)
+    return enclosed
