@@ -17,7 +17,7 @@ __all__ = ["kit"]
 #: The live parameters: option, what it sets, the words about its default.
 _LENGTHS = (
     ("side", "side of the square tubes", "10"),
-    ("edge_length", "distance between two vertices", "6 sides"),
+    ("edge_length", "distance between two vertices", "6 sides; more for a wide ring"),
     ("clearance", "gap between mating faces", "0.2"),
     ("peg_width", "width of the square pegs", "0.4 sides"),
     ("peg_length", "length of the pegs", "0.6 sides; loose: as far as it must reach"),
@@ -71,7 +71,7 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
     "--weave",
     metavar="NAME|FILE",
     help="A built-in weave, or a JSON file with ring_ratio, span, amplitude, bend and periods."
-    "  [default: the one for the frame and the key]",
+    "  [default: the one of the frame's name]",
 )
 @_lengths
 @click.option("--json", "as_json", is_flag=True, help="Say what was made as JSON.")

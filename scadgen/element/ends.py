@@ -57,7 +57,7 @@ def flat_end(key: Key, x: Length) -> End:
 def key_end(key: Key) -> End:
     """A tube's end at a key: the peg, or the socket of a loose one."""
     shell = Shell()
-    start: Length = {"side": key.tube_start, "clearance": 0.5}
+    start: Length = {"side": key.tube_start, "clearance": 1.0}
     rim = square(shell, start, {"side": 0.5})
     if key.style == "fixed":
         foot = square(shell, start, {"peg_width": 0.5})
@@ -139,7 +139,7 @@ def connector(key: Key, piece: Piece) -> AffineSolid:
 def peg(key: Key) -> AffineSolid:
     """The loose part ``peg``: a loose key, or a fixed peg on a cap for the frame's rim."""
     if key.style == "fixed":
-        cap: Length = {"side": key.tube_start + CAP, "clearance": 0.5}
+        cap: Length = {"side": key.tube_start + CAP, "clearance": 1.0}
         return part("peg", key_end(key), flat_end(key, {}), cap)
     shell = Shell()
     (tip, shoulder), bore = _tip(shell, key, {"side": key.pad})

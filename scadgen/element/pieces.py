@@ -61,7 +61,7 @@ def half(key: Key, piece: Piece) -> AffineSolid:
     """The part ``half``: half A with its side of the socket."""
     shell = Shell()
     add_surface(shell, piece, {TUBE, SPLIT, *([PAD] if key.through else [])})
-    mouth: Length = {"side": key.tube_start, "clearance": -0.5}
+    mouth: Length = {"side": key.tube_start}
     stations: list[tuple[Length, Length]] = [(mouth, key.socket)]
     if key.style == "fixed":
         stations.append((key.bottom, key.socket))

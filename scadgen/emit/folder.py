@@ -90,7 +90,10 @@ def _swap(stage: Path, target: Path, old: Path) -> None:
     kept = [entry.name for entry in target.iterdir() if entry.name not in ours]
     for name in kept:
         source = target / name
-        (shutil.copytree if source.is_dir() else shutil.copy2)(source, stage / name)
+        if source.is_dir() and not source.is_symlink():
+            shutil.copytree(source, stage / name, symlinks=True)
+        else:
+            shutil.copy2(source, stage / name, follow_symlinks=False)
     target.rename(old)
     try:
         stage.rename(target)

@@ -61,7 +61,7 @@ _GAP = 1.2
 _Item = list[Shell]
 
 
-def preview(kit: Kit, *, size: tuple[int, int] = (1200, 900)) -> bytes:
+def preview(kit: Kit, *, size: tuple[int, int] = (1000, 750)) -> bytes:
     """Draw what a kit is about: its joint whole and pulled apart, its edge elements.
 
     Parameters
@@ -191,29 +191,31 @@ def _turned(points: Floats, turn: float, *, flip: bool) -> Floats:
     """Points after a half turn about x where `flip` says so, then a turn about z in degrees."""
     c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
     f = -1.0 if flip else 1.0
-    return points @ np.array([[c, s, 0.0], [-s * f, c * f, 0.0], [0.0, 0.0, f]])
+    turning = np.array([[c, s, 0.0], [-s * f, c * f, 0.0], [0.0, 0.0, f]])
+    return np.asarray(points @ turning)
 
 
 def _draw(kit: Kit, rows: Sequence[Sequence[_Item]], size: tuple[int, int]) -> bytes:
     """Draw rows of items, the first at the top, each row centred."""
-    gap, rise = _GAP * kit.values["side"], math.sin(math.radians(_VIEW[1]))
-    drop = math.cos(math.radians(_VIEW[1]))
+    gap, elevation = _GAP * kit.values["side"], math.radians(_VIEW[1])
+    # On the screen, right is x and up is along this.
+    upwards = np.array([0.0, math.sin(elevation), math.cos(elevation)])
     shells: list[Shell] = []
     top = 0.0
     for row in rows:
-        # On the screen, right is x and up is y * rise + z * drop.
-        boxes = []
-        for item in row:
-            flat = np.concatenate(
-                [np.column_stack([p[:, 0], p @ (0, rise, drop)]) for p, _, _ in item]
-            )
-            boxes.append((flat.min(axis=0), flat.max(axis=0)))
+        boxes = [_box(item, upwards) for item in row]
         widths, heights = np.array([high - low for low, high in boxes]).T
         left = -(widths.sum() + gap * (len(row) - 1)) / 2
         for item, (low, _), width, height in zip(row, boxes, widths, heights, strict=True):
             up = top - (heights.max() + height) / 2 - low[1]
-            move = np.array([left - low[0], up / rise, 0.0])
+            move = np.array([left - low[0], up / upwards[1], 0.0])
             shells += [(points + move, triangles, colour) for points, triangles, colour in item]
             left += width + gap
         top -= heights.max() + gap
     return render(shells, size=size, view=_VIEW)
+
+
+def _box(item: _Item, upwards: Floats) -> tuple[Floats, Floats]:
+    """Lower left and upper right corner of an item on the screen."""
+    flat = np.concatenate([np.column_stack([p[:, 0], p @ upwards]) for p, _, _ in item])
+    return flat.min(axis=0), flat.max(axis=0)

@@ -76,10 +76,10 @@ def readme(kit: Kit) -> str:
     )
 
 
-def _needed(kit: Kit) -> list[Mapping[str, Any]]:
+def _needed(kit: Kit) -> list[dict[str, Any]]:
     """What the frame needs: part, what it is, count, spares, and volume in cm3."""
     key_end = "peg end" if kit.key == "fixed" else "socket end"
-    rows = []
+    rows: list[dict[str, Any]] = []
     for name, count in bill(LAYOUTS[kit.frame](kit.rows, kit.columns, kit.key)).items():
         solid = kit.parts[name]
         each = volume(solid.points(kit.values), solid.triangles) / 1000

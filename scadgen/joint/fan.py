@@ -13,6 +13,9 @@ from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["fanned"]
 
+#: A triangle with less than this share of its polygon's area, seen along its normal, folds back.
+_FOLD = 0.02
+
 #: Decimals, in sides, to which choices are compared, so that rounding does not decide.
 _DECIMALS = 9
 
@@ -22,37 +25,44 @@ def fanned(
 ) -> list[Wedge]:
     """The polygons, each starting at the corner from which it is to be cut into a fan.
 
-    That is the corner whose diagonals' middles are the nearest to the exact wall, or else
-    the one with the shortest diagonals.  The choice depends on places alone, so polygons that
-    a symmetry of the joint maps to each other are cut alike.
+    That is a corner from which no triangle folds back, and whose diagonals' middles are the
+    nearest to the exact wall.  The choice depends on places alone, so polygons that a
+    symmetry of the joint maps to each other are cut alike.
     """
-    rows: list[tuple[int, int, Key, Key]] = []
-    for number, wedge in enumerate(walls):
-        corners = wedge.corners
-        count = len(corners)
-        for n in range(count if count > 3 else 0):
-            rows += [
-                (number, n, corners[n], corners[(n + step) % count]) for step in range(2, count - 1)
-            ]
-    if not rows:
-        return list(walls)
-    first = np.array([position[start] for _, _, start, _ in rows])
-    second = np.array([position[stop] for _, _, _, stop in rows])
-    low, high = (
-        np.array([getattr(walls[row[0]], side) for row in rows]) for side in ("low", "high")
-    )
-    off = _distance_from_wall((first + second) / 2, low, high, curves)
-    length = np.linalg.norm(first - second, axis=1)
-    score = {(number, n): [0.0, 0.0] for number, n, _, _ in rows}
-    for (number, n, _, _), near, far in zip(rows, off.tolist(), length.tolist(), strict=True):
-        score[number, n][0] = max(score[number, n][0], near)
-        score[number, n][1] += far
-    return [
-        _from_best(wedge, [score[number, n] for n in range(len(wedge.corners))])
-        if len(wedge.corners) > 3
-        else wedge
-        for number, wedge in enumerate(walls)
-    ]
+    result = list(walls)
+    for count in sorted({len(wedge.corners) for wedge in walls} - {3}):
+        numbers = [n for n, wedge in enumerate(walls) if len(wedge.corners) == count]
+        corners = np.array([[position[c] for c in walls[n].corners] for n in numbers])
+        labels = np.array([(walls[n].low, walls[n].high) for n in numbers])
+        scores = [
+            np.stack([*_scores(np.roll(corners, -turn, axis=1), labels, curves)], axis=1)
+            for turn in range(count)
+        ]
+        for row, number in enumerate(numbers):
+            wedge = walls[number]
+            best = min(range(count), key=lambda n: (*scores[n][row].tolist(), wedge.corners[n]))
+            turned = (*wedge.corners[best:], *wedge.corners[:best])
+            result[number] = replace(wedge, corners=turned)
+    return result
+
+
+def _scores(corners: Floats, labels: Ints, curves: Sequence[SiteCurve]) -> tuple[Floats, ...]:
+    """How bad it is to cut ``(p, k, 3)`` polygons from their first corners; compared in order.
+
+    Whether a triangle folds back, how far the diagonals' middles are from the wall, and how
+    long the diagonals are.
+    """
+    arms = corners[:, 1:] - corners[:, :1]
+    normals = np.cross(arms[:, :-1], arms[:, 1:])
+    total = normals.sum(axis=1)
+    upright = np.einsum("pkx,px->pk", normals, total) / np.einsum("px,px->p", total, total)[:, None]
+    folds = (upright.min(axis=1) < _FOLD) * 1.0
+    ends = corners[:, 2:-1]
+    middles = (corners[:, :1] + ends) / 2
+    low, high = (np.repeat(labels[:, side], ends.shape[1]) for side in (0, 1))
+    off = _distance_from_wall(middles.reshape(-1, 3), low, high, curves).reshape(ends.shape[:2])
+    length = np.linalg.norm(arms[:, 1:-1], axis=2).sum(axis=1)
+    return folds, off.max(axis=1).round(_DECIMALS), length.round(_DECIMALS)
 
 
 def _distance_from_wall(
@@ -64,12 +74,3 @@ def _distance_from_wall(
     row = np.arange(len(points))
     steep = np.linalg.norm(slope[low, row] - slope[high, row], axis=1)
     return np.asarray(np.abs(far[low, row] - far[high, row]) / np.maximum(steep, 1e-6))
-
-
-def _from_best(wedge: Wedge, scores: list[list[float]]) -> Wedge:
-    """The polygon starting at the corner with the best score."""
-    corners = wedge.corners
-    best = min(
-        range(len(corners)), key=lambda n: (*(round(s, _DECIMALS) for s in scores[n]), corners[n])
-    )
-    return replace(wedge, corners=(*corners[best:], *corners[:best]))

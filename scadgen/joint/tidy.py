@@ -8,7 +8,7 @@ outline, or meet its end.  The first are merged; those corners are left out.
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -100,8 +100,14 @@ def merge_short_sides(
         for corner in wedge.corners:
             around[corner].add(number)
     merged = list(walls)
-    for gone, kept in _short_sides(walls, position, cell):
-        if gone in around and kept in around and _may_merge(merged, around, gone, kept):
+    into: dict[Key, Key] = {}
+    for side in _short_sides(walls, position, cell):
+        ends = {_last(into, key) for key in side}
+        if len(ends) < 2:
+            continue
+        gone, kept = sorted(ends, key=lambda key: (_RANK[key[0]], key))
+        if _may_merge(merged, around, gone, kept):
+            into[gone] = kept
             if _RANK[gone[0]] == _RANK[kept[0]]:
                 position[kept] = (position[gone] + position[kept]) / 2
             for number in sorted(around.pop(gone)):
@@ -111,18 +117,34 @@ def merge_short_sides(
     return [wedge for wedge in merged if len(wedge.corners) > 2]
 
 
+def _last(into: dict[Key, Key], key: Key) -> Key:
+    """The vertex that a vertex has been merged into, or itself."""
+    while key in into:
+        key = into[key]
+    return key
+
+
 def _short_sides(
     walls: Sequence[Wedge], position: dict[Key, Floats], cell: float
 ) -> list[tuple[Key, Key]]:
-    """Pairs of vertices to merge, first into second, shortest first."""
+    """Sides to merge, shortest first.
+
+    Of two sides of the same length at one vertex neither is merged: a half turn of the joint
+    swaps them, and whichever were taken, the walls would lose that symmetry.
+    """
     sides = {
-        (a, b) if (_RANK[a[0]], a) < (_RANK[b[0]], b) else (b, a)
+        (a, b) if a < b else (b, a)
         for wedge in walls
         for a, b in zip(wedge.corners, wedge.corners[1:] + wedge.corners[:1], strict=True)
     }
-    length = {side: float(np.linalg.norm(position[side[0]] - position[side[1]])) for side in sides}
-    short = [side for side in sides if length[side] < _SHORT * cell]
-    return sorted(short, key=lambda side: (round(length[side], 9), side))
+    length = {(a, b): round(float(np.linalg.norm(position[a] - position[b])), 9) for a, b in sides}
+    at_vertex = Counter((key, length[side]) for side in sides for key in side)
+    short = [
+        side
+        for side in sides
+        if length[side] < _SHORT * cell and all(at_vertex[key, length[side]] == 1 for key in side)
+    ]
+    return sorted(short, key=lambda side: (length[side], side))
 
 
 def _may_merge(walls: Sequence[Wedge], around: dict[Key, set[int]], gone: Key, kept: Key) -> bool:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
+from types import MappingProxyType
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -192,13 +193,14 @@ class SiteCurve:
         return distance, away / np.maximum(distance, np.finfo(float).tiny)[:, None]
 
 
-#: Weaves chosen by their figures; see the table in ``docs/geometry.md``.
-BUILT_IN: Mapping[str, Weave] = {
-    w.name: w
-    for w in (
-        Weave(1.504, 0.848, 0.336, 0.604, 1.409, name="hexagonal-fixed"),
-        Weave(1.5, 0.8, 0.15, 0.65, 1.0, name="hexagonal-loose"),
-        Weave(1.8, 0.9, 0.2, 0.5, 1.2, name="square-fixed"),
-        Weave(1.8, 0.9, 0.2, 0.5, 1.2, name="square-loose"),
-    )
-}
+#: Weaves chosen by their figures, by frame; see the table in ``docs/geometry.md``.
+BUILT_IN: Mapping[str, Weave] = MappingProxyType(
+    {
+        w.name: w
+        for w in (
+            Weave(1.555, 0.817, 0.43, 0.691, 1.516, name="hexagonal"),
+            Weave(2.376, 0.804, 0.541, 0.574, 1.504, name="square"),
+            Weave(1.504, 0.848, 0.336, 0.604, 1.409, name="hexagonal-strong"),
+        )
+    }
+)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
@@ -17,13 +17,13 @@ from scadgen.frame.layout import LAYOUTS, joint
 from scadgen.frame.placement import KEYS
 from scadgen.joint.joint import DETAILS, Detail, Joint, check_footprint, make_joint, site_curves
 from scadgen.joint.lattice import make_lattice
-from scadgen.joint.pieces import SPLIT, TUBE
+from scadgen.joint.pieces import SPLIT
 from scadgen.joint.recede import recede
 from scadgen.joint.territory import arm, belongs
 from scadgen.joint.weave import BUILT_IN, Weave
 from scadgen.kit.model import Kit
 from scadgen.kit.ranges import WALL, check_values, ranges
-from scadgen.solid.affine import AffineSolid
+from scadgen.solid.affine import PARAMETERS, AffineSolid
 from scadgen.solid.mesh import solid_faults
 from scadgen.solid.sweep import safe_share
 
@@ -61,7 +61,7 @@ class Request:
     detail
         Name of a level of `DETAILS`.
     weave
-        The weave; by default the built-in one for the frame and the key.
+        The weave; by default the built-in one for the frame.
     values
         Live parameters, in mm; those not given follow from the side.  A bore above zero
         makes a bored kit.
@@ -93,12 +93,16 @@ class Request:
             if value not in known:
                 msg = f"{name} = {value!r}: must be one of {', '.join(known)}"
                 raise InputError(msg)
+        for name in self.values:
+            if name not in PARAMETERS:
+                msg = f"{name}: not a live parameter; must be one of {', '.join(PARAMETERS)}"
+                raise InputError(msg)
         LAYOUTS[self.frame](self.rows, self.columns, self.key)
 
     @property
     def chosen_weave(self) -> Weave:
         """The weave given, or the built-in one."""
-        return self.weave or BUILT_IN[f"{self.frame}-{self.key}"]
+        return self.weave or BUILT_IN[self.frame]
 
 
 def build(request: Request) -> Kit:
@@ -118,7 +122,7 @@ def build(request: Request) -> Kit:
     bored = request.values.get("bore", 0.0) > 0
     pieces = _best_pieces(request, DETAILS[request.detail], bored=bored)
     limits = ranges(pieces.key, pieces.clearance_limit, pieces.hole)
-    values = _values(request, pieces)
+    values = _values(request, pieces, limits)
     check_values(limits, values)
     return Kit(
         frame=request.frame,
@@ -194,7 +198,7 @@ def _pieces(made: Joint, style: str, extra: int, *, bored: bool) -> _Pieces:
     key = _key(made, style, bored=bored)
     whole, first = made.connectors[0], made.halves[0][0]
     whole_piece = Piece(whole, recede(whole, ()), _REST)
-    half_piece = Piece(first, recede(first, (SPLIT, TUBE)), _REST)
+    half_piece = Piece(first, recede(first, (SPLIT,)), _REST)
     limit = min(_limit(connector(key, whole_piece)), _limit(half(key, half_piece)))
     return _Pieces(made, key, whole_piece, half_piece, math.floor(limit * 1e3) / 1e3, extra)
 
@@ -247,7 +251,9 @@ def _key(made: Joint, style: str, *, bored: bool) -> Key:
     return Key(style, bored, start, pad, window, depth)
 
 
-def _values(request: Request, pieces: _Pieces) -> dict[str, float]:
+def _values(
+    request: Request, pieces: _Pieces, limits: Iterable[Range]
+) -> dict[str, float]:
     """All live parameters: those given, and the others by the side."""
     side = request.values.get("side", 10.0)
     clearance = request.values.get("clearance", 0.2)
@@ -261,21 +267,25 @@ def _values(request: Request, pieces: _Pieces) -> dict[str, float]:
         length = min(through, (pieces.hole - WALL) * side - 2 * gap)
     values = {
         "side": side,
-        "edge_length": 6.0 * side,
+        "edge_length": max(6, math.ceil(2 * key.tube_start + 1.5)) * side,
         "clearance": clearance,
         "peg_width": math.floor(10 * width) / 10,
         "peg_length": math.floor(10 * length) / 10,
         "peg_clearance": gap,
         "peg_chamfer": 0.05 * side,
     }
-    return {**values, **{name: v for name, v in request.values.items() if name != "bore" or v > 0}}
+    values |= {name: v for name, v in request.values.items() if name != "bore" or v > 0}
+    if "edge_length" not in request.values:
+        least = max(r.low(values) for r in limits if r.parameter == "edge_length")
+        values["edge_length"] = max(6, math.ceil(least / side + 1)) * side
+    return values
 
 
 def _parts(pieces: _Pieces) -> dict[str, AffineSolid]:
     """Every printed part."""
     key = pieces.key
     joined, keyed = connector_end(key, pieces.connector), key_end(key)
-    flat = flat_end(key, {"side": key.tube_start, "clearance": 0.5})
+    flat = flat_end(key, {"side": key.tube_start, "clearance": 1.0})
     length = {"edge_length": 1.0}
     solids = (
         part("basic", joined, joined, length),

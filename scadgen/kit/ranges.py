@@ -64,9 +64,9 @@ def ranges(key: Key, clearance_limit: float, hole: float) -> tuple[Range, ...]:
         found += [
             Range(
                 "bore",
-                Linear({"side": 0.05}),
+                Linear({"side": 0.05, "clearance": 1.0}),
                 Linear({"peg_width": 1.0, "side": -4 * WALL}),
-                "the bore runs through the pegs",
+                "the bore leaves a groove in each half, and runs through the pegs",
             ),
             Range(
                 "peg_chamfer",
@@ -89,7 +89,7 @@ def _fixed(key: Key) -> list[Range]:
         ),
         Range(
             "edge_length",
-            Linear({"side": 2 * key.tube_start + _TUBE, "clearance": 1.0}),
+            Linear({"side": 2 * key.tube_start + _TUBE, "clearance": 2.0}),
             Linear({}, 2000.0),
             "two joints need room, and half a side of tube between them",
         ),

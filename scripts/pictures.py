@@ -1,0 +1,51 @@
+"""Draw the pictures of the documentation: python scripts/pictures.py [FOLDER].
+
+The same scadgen gives the same bytes, so a picture changes only when what it shows does.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from scadgen.emit.mesh import write_atomic
+from scadgen.emit.picture import frame_picture, joint_picture, parts_picture
+from scadgen.errors import ScadgenError
+from scadgen.kit.build import VALENCE, Request, build
+
+__all__ = ["main", "pictures"]
+
+#: Width and height of each, in pixels.
+_SIZE = (900, 675)
+
+#: How far joints are pulled apart, in sides.
+_APART = 1.2
+
+
+def pictures(frame: str) -> Iterator[tuple[str, bytes]]:
+    """Names and bytes of a frame's pictures."""
+    kit = build(Request(frame))
+    yield f"{frame}_frame.png", frame_picture(kit, size=_SIZE)
+    yield f"{frame}_joint.png", joint_picture(kit, size=_SIZE)
+    yield f"{frame}_joint_apart.png", joint_picture(kit, _APART, size=_SIZE)
+    yield f"{frame}_parts.png", parts_picture(kit, size=_SIZE)
+
+
+def main(folder: Path) -> int:
+    """Write all pictures into a folder; the exit status."""
+    folder.mkdir(parents=True, exist_ok=True)
+    try:
+        for frame in VALENCE:
+            for name, data in pictures(frame):
+                write_atomic(folder / name, data)
+                print(folder / name)
+    except ScadgenError as error:
+        print(f"pictures: {frame}: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    given = sys.argv[1:2] or [Path(__file__).parents[1] / "docs" / "pictures"]
+    sys.exit(main(Path(given[0])))
