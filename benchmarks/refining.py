@@ -51,7 +51,7 @@ def _made(frame: str, detail: Detail) -> Joint:
     edges = [2 * math.pi * n / count for n in range(count)]
     for extra in (0, 2, 4):
         try:
-            return make_joint(edges, BUILT_IN[f"{frame}-fixed"], detail, extra)
+            return make_joint(edges, BUILT_IN[frame], detail, extra)
         except GeometryError:
             if extra == 4:
                 raise

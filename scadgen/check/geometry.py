@@ -20,7 +20,7 @@ from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.gap import overlap_volume, smallest_gap
 from scadgen.solid.mesh import solid_faults, volume
 
-__all__ = ["CLEARANCES", "closed", "footprint", "gaps", "partition", "placed", "same", "sampling"]
+__all__ = ["CLEARANCES", "closed", "footprint", "gaps", "joint_of", "partition", "placed", "same", "sampling"]
 
 #: Clearances at which the gaps are measured, in sides: 0.05, 0.1, 0.2 and 0.4 mm at side 10 mm.
 CLEARANCES = (0.005, 0.01, 0.02, 0.04)
@@ -118,7 +118,7 @@ def partition(kit: Kit) -> Iterator[Result]:
 
 def footprint(kit: Kit) -> Result:
     """Whether a tube's face belongs to its connector alone, proven from the curves."""
-    made = _joint(kit, DETAILS[kit.detail])
+    made = joint_of(kit, DETAILS[kit.detail])
     try:
         check_footprint(made.lattice, made.curves, 0)
     except ScadgenError as error:
@@ -174,8 +174,8 @@ def _overlaps(kit: Kit, clearance: float) -> Iterator[float]:
 def sampling(kit: Kit) -> Iterator[Result]:
     """How far walls and volumes move when samples double, and what the lattice leaves out."""
     detail, bound = DETAILS[kit.detail], _WALL[kit.detail]
-    once = _joint(kit, detail)
-    twice = _joint(kit, Detail(2 * detail.samples, detail.cells))
+    once = joint_of(kit, detail)
+    twice = joint_of(kit, Detail(2 * detail.samples, detail.cells))
     first, second = once.connectors[0], twice.connectors[0]
     same_walls = first.walls.shape == second.walls.shape and bool(
         (first.walls == second.walls).all()
@@ -210,7 +210,7 @@ def _weave(kit: Kit) -> Weave:
     return Weave.from_dict(dict(kit.weave), str(kit.weave["name"]))
 
 
-def _joint(kit: Kit, detail: Detail) -> Joint:
+def joint_of(kit: Kit, detail: Detail) -> Joint:
     """The kit's joint at some detail, on the kit's own lattice."""
     count = VALENCE[kit.frame]
     edges = [2 * math.pi * n / count for n in range(count)]

@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from scadgen.check import geometry, rendered
+from scadgen.check import geometry, locking, rendered
 from scadgen.check.result import Result
 from scadgen.kit.model import Kit
 
@@ -36,6 +36,10 @@ def checks(kit: Kit, scad: Path, timeout: float) -> Iterator[Result]:
     yield geometry.footprint(kit)
     yield from geometry.gaps(kit)
     yield from geometry.sampling(kit)
+    yield locking.connectors_lock(kit)
+    yield locking.finer_connectors_lock(kit)
+    yield from locking.only_the_peg_moves(kit)
+    yield locking.tightness(kit)
     with tempfile.TemporaryDirectory(prefix="scadgen-") as name:
         folder = Path(name)
         yield from rendered.part_renders(kit, scad, folder, timeout)

@@ -8,14 +8,14 @@ from pathlib import Path
 
 import click
 
-from scadgen.cli.console import status, table
+from scadgen.cli.console import status, table, timeout_option
 
 __all__ = ["check"]
 
 
 @click.command(short_help="Check everything about a kit.")
 @click.argument("folder", metavar="KIT", type=click.Path(path_type=Path))
-@click.option("--timeout", default=300.0, show_default=True, metavar="S", help="Limit a drawing.")
+@timeout_option
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def check(folder: Path, timeout: float, as_json: bool) -> int:  # noqa: FBT001
     """Check a kit: solids, partition, footprint, gaps, sampling, and OpenSCAD's drawings.
@@ -37,5 +37,6 @@ def check(folder: Path, timeout: float, as_json: bool) -> int:  # noqa: FBT001
         rows = [("ok" if r.good else "FAILED", r.check, r.figure, r.bound) for r in results]
         table(("", "check", "found", "must be"), rows)
         bad = sum(not r.good for r in results)
-        click.echo(f"{folder}: {len(results) - bad} of {len(results)} checks are good")
+        name = click.format_filename(folder)
+        click.echo(f"{name}: {len(results) - bad} of {len(results)} checks are good")
     return 0 if all(result.good for result in results) else 1

@@ -2,13 +2,33 @@
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 
 import click
 
-__all__ = ["status", "table"]
+__all__ = ["status", "table", "timeout_option"]
+
+
+def _seconds(_: click.Context, __: click.Parameter, value: float) -> float:
+    """Refuse what is no length of time."""
+    if not 0 < value < math.inf:
+        msg = f"{value:g} s: must be a finite number above 0"
+        raise click.BadParameter(msg)
+    return value
+
+
+#: How long OpenSCAD may take for one drawing.
+timeout_option = click.option(
+    "--timeout",
+    default=300.0,
+    show_default=True,
+    metavar="S",
+    callback=_seconds,
+    help="Limit a drawing.",
+)
 
 
 @contextmanager

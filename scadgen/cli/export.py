@@ -28,11 +28,11 @@ __all__ = ["export", "settings"]
 def export(
     folder: Path, part: str, kind: str | None, changes: tuple[str, ...], output: Path
 ) -> None:
-    r"""Write one part of a kit as STL, 3MF, OBJ or GLB.
+    """Write one part of a kit as STL, 3MF, OBJ or GLB.
 
     \b
     scadgen export out/hexagonal --part half --set clearance=0.3 -o half.stl
-    """
+    """  # noqa: D301  click wants the character
     from scadgen.emit.mesh import mesh_bytes, write_atomic
     from scadgen.kit.store import load
 
@@ -43,7 +43,7 @@ def export(
     solid = kit.parts[part]
     points = solid.points(settings(kit, changes))
     write_atomic(output, mesh_bytes(points, solid.triangles, kind or output.suffix.lstrip(".")))
-    click.echo(f"{output}: {part}, {len(solid.triangles)} triangles")
+    click.echo(f"{click.format_filename(output)}: {part}, {len(solid.triangles)} triangles")
 
 
 def settings(kit: Kit, changes: tuple[str, ...]) -> dict[str, float]:

@@ -86,7 +86,7 @@ def kit(
     as_json: bool,  # noqa: FBT001  click passes flags so
     **lengths: float | None,
 ) -> None:
-    r"""Make a kit for a hexagonal or square frame.
+    """Make a kit for a hexagonal or square frame.
 
     Writes kit.json, an OpenSCAD file with sliders, a Makefile, a README and a preview, all or
     nothing.  Lengths are in mm.
@@ -94,7 +94,7 @@ def kit(
     \b
     scadgen kit hexagonal -o out/hexagonal
     scadgen kit square --rows 3 --columns 4 --side 8 --clearance 0.15 -o shelf
-    """
+    """  # noqa: D301  click wants the character
     from scadgen.emit.folder import write_kit
     from scadgen.kit.build import Request, build
     from scadgen.kit.store import summary
@@ -111,10 +111,10 @@ def kit(
         return
     bill = summary(made)["bill"]
     count = sum(bill.values())
-    click.echo(f"{folder}: {count} pieces to print for {rows} x {columns} cells")
+    click.echo(f"{click.format_filename(folder)}: {count} pieces to print for {rows} x {columns} cells")
     for part, number in bill.items():
         click.echo(f"  {number:4d} {part}")
-    place = shlex.quote(str(folder))
+    place = shlex.quote(click.format_filename(folder))
     click.echo(f"next: scadgen render {place}, or make -C {place} -j2")
 
 

@@ -10,6 +10,7 @@ import click
 from scadgen import __version__
 from scadgen.cli.check import check
 from scadgen.cli.export import export
+from scadgen.cli.interlock import interlock
 from scadgen.cli.kit import kit
 from scadgen.cli.render import render
 from scadgen.errors import ScadgenError
@@ -26,7 +27,7 @@ def cli() -> None:
     """Turn a planar frame into 3D-printable parts that interlock without glue or screws."""
 
 
-for command in (kit, export, render, check):
+for command in (kit, export, render, check, interlock):
     cli.add_command(command)
 
 
@@ -36,13 +37,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     Exit status 0 is good, 1 means that the answer is no, 2 that the request was wrong;
     then stderr has one line that says what, the value, and what works.
     """
+    words = sys.argv[1:] if arguments is None else list(arguments)
     try:
-        status = cli.main(arguments, prog_name="scadgen", standalone_mode=False)
+        status = cli.main(words or ["--help"], prog_name="scadgen", standalone_mode=False)
     except click.UsageError as error:
         where = f" (see {error.ctx.command_path} --help)" if error.ctx else ""
-        _fail(error.format_message().replace("\n", " ") + where)
+        _fail(error.format_message() + where)
     except click.ClickException as error:
-        _fail(error.format_message().replace("\n", " "))
+        _fail(error.format_message())
     except ScadgenError as error:
         _fail(str(error))
     except (click.Abort, KeyboardInterrupt):
@@ -52,5 +54,5 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def _fail(message: str) -> None:
-    click.echo(f"scadgen: {message}", err=True)
+    click.echo(f"scadgen: {' '.join(message.splitlines())}", err=True)
     sys.exit(_WRONG)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from scadgen.cli.console import status, table
+from scadgen.cli.console import status, table, timeout_option
 from scadgen.errors import InputError
 
 __all__ = ["render"]
@@ -20,7 +20,7 @@ __all__ = ["render"]
 @click.option("--format", "kind", default="stl", show_default=True, metavar="stl|3mf|png")
 @click.option("--set", "changes", multiple=True, metavar="NAME=MM", help="Another live parameter.")
 @click.option("--jobs", type=click.IntRange(min=1), default=os.cpu_count() or 1, help="At once.")
-@click.option("--timeout", default=300.0, show_default=True, metavar="S", help="Limit a drawing.")
+@timeout_option
 def render(
     folder: Path,
     parts: tuple[str, ...],
@@ -63,8 +63,12 @@ def render(
         setting: dict[str, str | float] = {"part": part, **values}
         done = openscad.render(scad, output, setting, timeout=timeout, options=options)
         content = f"{check_stl(output) / 1000:.2f} cm3, watertight" if kind == "stl" else ""
-        return str(output), f"{done.seconds:.1f} s", content
+        return click.format_filename(output), f"{done.seconds:.1f} s", content
 
-    with status(f"drawing {folder}"), ThreadPoolExecutor(jobs) as pool:
-        rows = list(pool.map(draw, parts or tuple(kit.parts)))
+    try:
+        with status(f"drawing {folder}"), ThreadPoolExecutor(jobs) as pool:
+            rows = list(pool.map(draw, parts or tuple(kit.parts)))
+    finally:
+        if not any(target.iterdir()):
+            target.rmdir()
     table(("file", "time", ""), rows)

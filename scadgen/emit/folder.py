@@ -51,14 +51,8 @@ def write_kit(kit: Kit, folder: Path, *, progress: Callable[[str], None] = lambd
         The folder is a file, holds something else, or cannot be written.  Nothing is
         changed then.
     """
-    target = Path(os.path.realpath(folder))
-    if target.exists() and not target.is_dir():
-        msg = f"cannot write the kit to {str(folder)!r}: it is a file; name a folder, or a new one"
-        raise InputError(msg)
-    if target.is_dir() and any(target.iterdir()) and not (target / "kit.json").is_file():
-        msg = f"cannot write the kit to {str(folder)!r}: it holds other things; name a new folder"
-        raise InputError(msg)
     try:
+        target = _target(folder)
         target.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=target.parent, prefix=".scadgen-") as name:
             stage = Path(name) / "kit"
@@ -75,6 +69,18 @@ def write_kit(kit: Kit, folder: Path, *, progress: Callable[[str], None] = lambd
             "writable place with space left"
         )
         raise InputError(msg) from error
+
+
+def _target(folder: Path) -> Path:
+    """The folder itself, if a kit may be put there."""
+    target = Path(os.path.realpath(folder))
+    if target.exists() and not target.is_dir():
+        msg = f"cannot write the kit to {str(folder)!r}: it is a file; name a folder, or a new one"
+        raise InputError(msg)
+    if target.is_dir() and any(target.iterdir()) and not (target / "kit.json").is_file():
+        msg = f"cannot write the kit to {str(folder)!r}: it holds other things; name a new folder"
+        raise InputError(msg)
+    return target
 
 
 #: What the kit's Makefile and `scadgen render` write, which a new kit makes stale.

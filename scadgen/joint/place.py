@@ -139,7 +139,9 @@ def _basis(corners: Floats, dimensions: int) -> Floats:
     return np.stack([first, second / np.linalg.norm(second, axis=1)[:, None]], axis=1)
 
 
-def _meet(curves: Sequence[SiteCurve], seen: NDArray[np.bool_], start: Floats, basis: Floats) -> Floats:
+def _meet(
+    curves: Sequence[SiteCurve], seen: NDArray[np.bool_], start: Floats, basis: Floats
+) -> Floats:
     """Points nearest the start, within the basis, equally far from all curves seen."""
     points = start
     row = np.arange(len(start))

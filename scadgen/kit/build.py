@@ -23,7 +23,7 @@ from scadgen.joint.territory import arm, belongs
 from scadgen.joint.weave import BUILT_IN, Weave
 from scadgen.kit.model import Kit
 from scadgen.kit.ranges import WALL, check_values, ranges
-from scadgen.solid.affine import PARAMETERS, AffineSolid
+from scadgen.solid.affine import PARAMETERS, AffineSolid, Range
 from scadgen.solid.mesh import solid_faults
 from scadgen.solid.sweep import safe_share
 
@@ -34,6 +34,9 @@ VALENCE: Mapping[str, int] = MappingProxyType({"hexagonal": 3, "square": 4})
 
 #: Clearance up to which pieces are tried, that which is enough, and that which must be, in sides.
 _TRIED, _ENOUGH, _LEAST = 0.06, 0.042, 0.005
+
+#: Above every range, in mm, so that no sum of lengths leaves the numbers there are.
+_LONGEST = 1e6
 
 #: Lattices tried for it, by their extra cells in each gap.
 _LATTICES = (0, 2, 4, 6, 8)
@@ -116,12 +119,14 @@ def build(request: Request) -> Kit:
         The weave makes no sound pieces.
     """
     for name, value in request.values.items():
-        if not math.isfinite(value) or value < 0:
-            msg = f"{name} = {value:g} mm: must be a finite number, at least 0"
+        if not 0 <= value <= _LONGEST:
+            msg = f"{name} = {value:g} mm: must be a number from 0 to {_LONGEST:g}"
             raise InputError(msg)
     bored = request.values.get("bore", 0.0) > 0
     pieces = _best_pieces(request, DETAILS[request.detail], bored=bored)
     limits = ranges(pieces.key, pieces.clearance_limit, pieces.hole)
+    # All other defaults are shares of the side.
+    check_values([r for r in limits if r.parameter == "side"], {"side": 10.0, **request.values})
     values = _values(request, pieces, limits)
     check_values(limits, values)
     return Kit(
@@ -199,14 +204,20 @@ def _pieces(made: Joint, style: str, extra: int, *, bored: bool) -> _Pieces:
     whole, first = made.connectors[0], made.halves[0][0]
     whole_piece = Piece(whole, recede(whole, ()), _REST)
     half_piece = Piece(first, recede(first, (SPLIT,)), _REST)
-    limit = min(_limit(connector(key, whole_piece)), _limit(half(key, half_piece)))
+    limit = min(_limit(connector(key, whole_piece), key), _limit(half(key, half_piece), key))
     return _Pieces(made, key, whole_piece, half_piece, math.floor(limit * 1e3) / 1e3, extra)
 
 
-def _limit(solid: AffineSolid) -> float:
-    """Clearance, in sides, up to which a solid is proven sound."""
-    values = {"side": 1.0, "edge_length": 6.0, "clearance": 0.0, "peg_width": 0.25}
-    values |= {"peg_length": 0.3, "peg_clearance": 0.01, "peg_chamfer": 0.02, "bore": 0.1}
+def _limit(solid: AffineSolid, key: Key) -> float:
+    """Clearance, in sides, up to which a solid is proven sound.
+
+    Its holes are as wide and as deep as their ranges allow, so that what draws back without
+    touching them touches no smaller ones either.
+    """
+    width = 2 * (key.window - WALL)
+    values = {"side": 1.0, "edge_length": 6.0, "clearance": 0.0, "peg_clearance": 0.0}
+    values |= {"peg_width": width, "peg_length": key.depth - 2 * WALL, "bore": width - 4 * WALL}
+    values["peg_chamfer"] = 0.01
     start = solid.points(values)
     faults = solid_faults(solid.points({**values, "clearance": _LEAST}), solid.triangles)
     if faults:
@@ -251,9 +262,7 @@ def _key(made: Joint, style: str, *, bored: bool) -> Key:
     return Key(style, bored, start, pad, window, depth)
 
 
-def _values(
-    request: Request, pieces: _Pieces, limits: Iterable[Range]
-) -> dict[str, float]:
+def _values(request: Request, pieces: _Pieces, limits: Iterable[Range]) -> dict[str, float]:
     """All live parameters: those given, and the others by the side."""
     side = request.values.get("side", 10.0)
     clearance = request.values.get("clearance", 0.2)

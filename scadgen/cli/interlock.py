@@ -1,0 +1,247 @@
+"""``scadgen interlock``: say whether any set of parts locks."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from scadgen.cli.console import status, table
+from scadgen.errors import InputError, InvariantError
+
+if TYPE_CHECKING:
+    from scadgen.interlock.contacts import Contacts, Mesh
+    from scadgen.interlock.verdict import Certificate, Motion
+
+__all__ = ["interlock"]
+
+#: Residual of a certificate that counts as balanced.
+_BALANCED = 1e-8
+
+_FILE = click.Path(path_type=Path)
+
+
+@click.command(short_help="Say whether any set of parts locks.")
+@click.argument("files", metavar="FILE...", nargs=-1, required=True, type=_FILE)
+@click.option(
+    "--hold",
+    metavar="NAMES",
+    help="Parts that are held fast, with commas between.  [default: the largest]",
+)
+@click.option(
+    "--tolerance",
+    type=float,
+    metavar="MM",
+    help="Distance up to which faces touch.  [default: 1 % of the median part's diagonal]",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
+@click.option("--gif", type=_FILE, help="Film the motion into this file.")
+@click.option("--png", type=_FILE, help="Draw the motion, or the parts at rest, into this file.")
+def interlock(
+    files: tuple[Path, ...],
+    hold: str | None,
+    tolerance: float | None,
+    as_json: bool,  # noqa: FBT001  click passes flags so
+    gif: Path | None,
+    png: Path | None,
+) -> int:
+    """Say whether parts, placed as assembled, hold each other: STL, 3MF, OBJ, PLY or OFF.
+
+    A file with several bodies is several parts: name.1, name.2.  To first order, from the
+    faces that touch; locked means proven, with a certificate that is checked again.
+
+    Exit status 0 if they are locked, 1 if something can move.
+
+    \b
+    scadgen interlock burr/*.stl --hold piece1
+    scadgen interlock puzzle.3mf --tolerance 0.4 --gif motion.gif
+    """  # noqa: D301  click wants the character
+    from scadgen.interlock.keys import alone, keys
+    from scadgen.interlock.verdict import Motion
+    from scadgen.tools.read_mesh import read_parts
+
+    with status("reading") as say:
+        parts = read_parts(files)
+        names, meshes = list(parts), list(parts.values())
+        held = _held(names, meshes, hold)
+        _check_overlaps(names, meshes)
+        say("looking for contacts")
+        near, contacts = _touching(meshes, tolerance)
+        say("looking for a motion")
+        answer, facts = _judge(meshes, contacts, held)
+        say("looking for parts that move alone")
+        motions = [m if isinstance(m, Motion) else None for m in alone(meshes, contacts)]
+        order = [names[part] for part, _ in keys(meshes, contacts)]
+    motion = answer if isinstance(answer, Motion) else None
+    report = {
+        "locked": motion is None,
+        "held": [names[part] for part in held],
+        "tolerance": near,
+        "contacts": len(contacts),
+        "certificate": facts,
+        "motion": _as_json(names, motion) if motion else None,
+        "alone": {
+            n: _as_json(names, m) if m else None for n, m in zip(names, motions, strict=True)
+        },
+        "keys": order,
+    }
+    if as_json:
+        click.echo(json.dumps(report, indent=1))
+    else:
+        _say(names, meshes, report, motion, motions, defaulted=hold is None)
+    _draw(meshes, motion, gif, png)
+    return 0 if motion is None else 1
+
+
+def _held(names: list[str], meshes: list[Mesh], hold: str | None) -> list[int]:
+    """Numbers of the parts to hold."""
+    from scadgen.interlock.assembly import largest_part
+
+    if len(names) < 2:
+        msg = f"{len(names)} part: must be at least two; name more files"
+        raise InputError(msg)
+    if hold is None:
+        return [largest_part(meshes)]
+    chosen = [name.strip() for name in hold.split(",")]
+    for name in chosen:
+        if name not in names:
+            msg = f"--hold {name}: must be one of {', '.join(names)}"
+            raise InputError(msg)
+    if len(set(chosen)) == len(names):
+        msg = f"--hold {hold}: holds all parts; leave at least one free"
+        raise InputError(msg)
+    return sorted(names.index(name) for name in set(chosen))
+
+
+def _check_overlaps(names: list[str], meshes: list[Mesh]) -> None:
+    from scadgen.interlock.overlap import overlaps
+
+    if found := overlaps(meshes):
+        a, b, shared = max(found, key=lambda pair: pair[2])
+        msg = (
+            f"{names[a]} and {names[b]} overlap by {shared:.6g} mm3, {len(found)} pairs in all: "
+            "parts must be placed as assembled"
+        )
+        raise InputError(msg)
+
+
+def _touching(meshes: list[Mesh], tolerance: float | None) -> tuple[float, Contacts]:
+    """The tolerance and the contacts."""
+    from scadgen.interlock.contacts import default_tolerance, find_contacts
+
+    near = default_tolerance(meshes) if tolerance is None else tolerance
+    contacts = find_contacts(meshes, near)
+    if not len(contacts):
+        msg = (
+            f"no two parts touch within {near:.4g} mm: "
+            "place them as assembled, or give a larger --tolerance"
+        )
+        raise InputError(msg)
+    return near, contacts
+
+
+def _judge(
+    meshes: list[Mesh], contacts: Contacts, held: list[int]
+) -> tuple[Certificate | Motion, dict[str, float] | None]:
+    """The verdict, and the facts of a certificate once it is checked."""
+    from scadgen.interlock.assembly import make_assembly
+    from scadgen.interlock.certificate import check_certificate
+    from scadgen.interlock.verdict import Motion, verdict
+
+    answer = verdict(make_assembly(meshes, contacts, held))
+    if isinstance(answer, Motion):
+        return answer, None
+    residual = check_certificate(contacts, held, len(meshes), answer)
+    if not residual < _BALANCED:
+        msg = f"a certificate balances every part: residual {residual:.3g}"
+        raise InvariantError(msg)
+    return answer, {
+        "contacts": len(answer.rows),
+        "rank": answer.rank,
+        "largest_force": float(answer.forces.max()),
+        "residual": residual,
+    }
+
+
+def _say(
+    names: list[str],
+    meshes: list[Mesh],
+    report: dict[str, Any],
+    motion: Motion | None,
+    motions: list[Motion | None],
+    *,
+    defaulted: bool,
+) -> None:
+    """Print the answer for a person."""
+    held = ", ".join(report["held"]) + (", the largest part" if defaulted else "")
+    click.echo("locked" if motion is None else "movable")
+    click.echo(f"  held         {held}")
+    click.echo(f"  contacts     {report['contacts']} within {report['tolerance']:.4g} mm")
+    if facts := report["certificate"]:
+        click.echo(
+            f"  certificate  {facts['contacts']} contacts push, rank {facts['rank']}, largest "
+            f"force {facts['largest_force']:.4g}, residual {facts['residual']:.1e}"
+        )
+    if motion:
+        slides = ", contacts only slide" if motion.slides else ""
+        click.echo(f"  motion       {', '.join(names[n] for n in motion.parts)}{slides}")
+    click.echo(f"  keys         {', '.join(report['keys']) or 'none: no part comes free alone'}")
+    click.echo("")
+    rows: list[tuple[str, ...]] = [
+        (name, "held" if name in report["held"] else "", _how(meshes, m, n) if m else "locked")
+        for n, (name, m) in enumerate(zip(names, motions, strict=True))
+    ]
+    if motion and len(motion.parts) > 1:
+        together = {part: _how(meshes, motion, part) for part in motion.parts}
+        rows = [(*row, together.get(n, "")) for n, row in enumerate(rows)]
+        table(("part", "", "alone", "in the motion"), rows)
+    else:
+        table(("part", "", "alone"), rows)
+
+
+def _how(meshes: list[Mesh], motion: Motion, part: int) -> str:
+    """Say how one part of a motion moves."""
+    import numpy as np
+
+    n = motion.parts.index(part)
+    t, w = motion.translations[n], motion.rotations[n]
+    points = meshes[part][0]
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    half = np.linalg.norm(np.ptp(points, axis=0)) / 2
+    speed, spin = float(np.linalg.norm(t)), float(np.linalg.norm(w))
+    if spin * half < 1e-3 * speed:
+        return f"moves along {_vector(t / speed)}"
+    along = abs(float(t @ w)) / spin
+    where = middle + np.cross(w, t) / spin**2
+    text = f"turns about {_vector(w / spin)} through {_vector(where)}"
+    return text + (" and moves along it" if along > 1e-3 * spin * half else "")
+
+
+def _vector(values: Any) -> str:  # noqa: ANN401  numpy is imported late
+    return "(" + ", ".join(f"{x:.3g}" for x in (values.round(4) + 0.0).tolist()) + ")"
+
+
+def _as_json(names: list[str], motion: Motion) -> dict[str, Any]:
+    steps = zip(motion.parts, motion.translations, motion.rotations, strict=True)
+    return {
+        "slides": motion.slides,
+        "parts": [
+            {"part": names[n], "translation": t.tolist(), "rotation": w.tolist()}
+            for n, t, w in steps
+        ],
+    }
+
+
+def _draw(meshes: list[Mesh], motion: Motion | None, gif: Path | None, png: Path | None) -> None:
+    """Write the pictures that were asked for."""
+    from scadgen.emit.mesh import write_atomic
+    from scadgen.emit.motion import motion_gif, motion_png
+
+    if png:
+        write_atomic(png, motion_png(meshes, motion))
+    if gif and motion:
+        write_atomic(gif, motion_gif(meshes, motion))
+    elif gif:
+        click.echo(f"scadgen: nothing moves, {gif} is not written", err=True)

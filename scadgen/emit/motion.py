@@ -1,0 +1,140 @@
+"""Pictures of a motion: the parts that move in colour, the others grey.
+
+A motion is only a start, so it is drawn larger than life: each part goes the way that it
+starts on, until the farthest has gone about half its size.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from scadgen.emit.preview import Colour, Shell, render
+from scadgen.interlock.verdict import Motion
+from scadgen.solid.affine import Floats, Ints
+
+__all__ = ["motion_gif", "motion_png", "moved"]
+
+#: Colours of what rests, in turn, and of what moves.
+_REST: tuple[Colour, ...] = ((200, 200, 196), (172, 174, 178), (222, 218, 208))
+_MOVES: tuple[Colour, ...] = ((205, 92, 92), (70, 130, 180), (218, 165, 32), (46, 139, 87))
+
+#: How far the farthest part goes, as a share of its half diagonal.
+_FAR = 1.0
+
+#: Frames of a film, there and back, and milliseconds each.
+_FRAMES, _PACE = 24, 60
+
+
+def moved(points: Floats, translation: Floats, rotation: Floats, time: float) -> Floats:
+    """Points of a part after a screw motion about the middle of its box.
+
+    Parameters
+    ----------
+    points
+        ``(v, 3) float``.
+    translation, rotation
+        ``(3,) float`` each: velocity, and radians per unit of time.
+    time
+        How long.
+    """
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    angle = float(np.linalg.norm(rotation)) * time
+    local = points - middle
+    if angle:
+        axis = rotation / np.linalg.norm(rotation)
+        along = np.outer(local @ axis, axis)
+        turned = math.cos(angle) * (local - along) + math.sin(angle) * np.cross(axis, local)
+        local = along + turned
+    return np.asarray(local + middle + time * translation)
+
+
+def motion_png(
+    meshes: Sequence[tuple[Floats, Ints]],
+    motion: Motion | None,
+    *,
+    size: tuple[int, int] = (1200, 900),
+) -> bytes:
+    """Draw parts some way along their motion, or at rest if there is none.
+
+    Parameters
+    ----------
+    meshes
+        Points ``(v, 3) float`` and triangles ``(m, 3) int`` of each part.
+    motion
+        The motion.
+    size
+        Width and height in pixels.
+
+    Returns
+    -------
+    png
+        The file's bytes; the same for the same input.
+    """
+    return render(_shells(meshes, motion, 1.0 if motion else 0.0), size=size)
+
+
+def motion_gif(
+    meshes: Sequence[tuple[Floats, Ints]], motion: Motion, *, size: tuple[int, int] = (640, 480)
+) -> bytes:
+    """Film parts along their motion, there and back, for ever.
+
+    Parameters
+    ----------
+    meshes
+        Points ``(v, 3) float`` and triangles ``(m, 3) int`` of each part.
+    motion
+        The motion.
+    size
+        Width and height in pixels.
+
+    Returns
+    -------
+    gif
+        The file's bytes; the same for the same input.
+    """
+    from PIL import Image  # not needed otherwise
+
+    first, *others = (
+        Image.open(io.BytesIO(render(_shells(meshes, motion, share), size=size))).quantize(128)
+        for share in (0.5 - 0.5 * math.cos(2 * math.pi * n / _FRAMES) for n in range(_FRAMES))
+    )
+    buffer = io.BytesIO()
+    first.save(buffer, format="GIF", save_all=True, append_images=others, duration=_PACE, loop=0)
+    return buffer.getvalue()
+
+
+def _shells(
+    meshes: Sequence[tuple[Floats, Ints]], motion: Motion | None, share: float
+) -> list[Shell]:
+    """The parts a share of the way along, in a frame that holds all of the way."""
+    numbers = {part: n for n, part in enumerate(motion.parts)} if motion else {}
+    shells: list[Shell] = []
+    extent = []
+    time = _duration(meshes, motion) if motion else 0.0
+    for part, (points, triangles) in enumerate(meshes):
+        extent.append(points)
+        if motion is None or part not in numbers:
+            shells.append((points, triangles, _REST[part % len(_REST)]))
+            continue
+        n = numbers[part]
+        step = motion.translations[n], motion.rotations[n]
+        extent += [moved(points, *step, time * k / 4) for k in range(1, 5)]
+        shells.append((moved(points, *step, time * share), triangles, _MOVES[n % len(_MOVES)]))
+    # Faces without area are not drawn, but the picture makes room for them.
+    corners = np.concatenate(extent)
+    shells.append((corners, np.repeat(np.arange(len(corners))[:, None], 3, axis=1), (0, 0, 0)))
+    return shells
+
+
+def _duration(meshes: Sequence[tuple[Floats, Ints]], motion: Motion) -> float:
+    """Time at which the part that goes farthest has gone `_FAR` of its half diagonal."""
+    times = []
+    for n, part in enumerate(motion.parts):
+        half = float(np.linalg.norm(np.ptp(meshes[part][0], axis=0))) / 2
+        speed = np.linalg.norm(motion.translations[n]) + np.linalg.norm(motion.rotations[n]) * half
+        times.append(_FAR * half / float(speed))
+    return min(times)

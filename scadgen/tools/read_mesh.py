@@ -1,0 +1,168 @@
+"""Reads the parts of a puzzle from mesh files: every body in them, checked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from scadgen.errors import InputError, ToolError
+from scadgen.interlock.bodies import bodies, open_edges
+from scadgen.solid.affine import Floats, Ints
+from scadgen.solid.crossing import crossing_faces
+from scadgen.solid.mesh import FLAT, heights, volume
+from scadgen.tools.stl import read_stl
+
+__all__ = ["FORMATS", "read_bodies", "read_parts"]
+
+#: The endings of files that can be read.
+FORMATS = ("stl", "3mf", "obj", "ply", "off")
+
+#: How many times smaller than the largest a part may be: a metre is 1000 mm.
+_UNITS = 500.0
+
+#: How deep faces must cross to count, as a share of the part's diagonal: float32 rounds
+#: coordinates by 1e-7 of their size.
+_DEEP = 1e-5
+
+_Mesh = tuple[Floats, Ints]
+
+
+def read_parts(paths: Sequence[Path]) -> dict[str, _Mesh]:
+    """Read the parts in some files.
+
+    Parameters
+    ----------
+    paths
+        STL, 3MF, OBJ, PLY or OFF files.
+
+    Returns
+    -------
+    parts
+        Points ``(v, 3) float`` and triangles ``(m, 3) int`` by name: the file's name
+        without its ending, with .1, .2 and so on if it has several bodies.  3MF is turned
+        into mm; the others have no unit and are left as they are.
+
+    Raises
+    ------
+    InputError
+        A file that cannot be read or has no faces, a part that is not closed, is inside out
+        or crosses itself, parts of one name, or of sizes that cannot be in one unit.
+    """
+    parts: dict[str, _Mesh] = {}
+    for path in paths:
+        found = read_bodies(path)
+        for number, mesh in enumerate(found, 1):
+            name = path.stem if len(found) == 1 else f"{path.stem}.{number}"
+            if name in parts:
+                msg = f"{path}: there is a part {name} already: files must have different names"
+                raise InputError(msg)
+            parts[name] = mesh
+    _check_sizes(parts)
+    return parts
+
+
+def read_bodies(path: Path) -> list[_Mesh]:
+    """Read the bodies in one file; see `read_parts`."""
+    found = []
+    for mesh in _objects(path):
+        points, triangles = _welded(path, *mesh)
+        if len(faulty := open_edges(triangles)):
+            place = _place(points[faulty[0]].mean(axis=0))
+            msg = f"{path}: not closed: {len(faulty)} open edges, one at {place}; repair it first"
+            raise InputError(msg)
+        for faces in bodies(points, triangles):
+            used, numbers = np.unique(triangles[faces], return_inverse=True)
+            body = points[used], numbers.reshape(-1, 3)
+            _check_body(path, *body)
+            found.append(body)
+    if not found:
+        msg = f"{path}: has no faces"
+        raise InputError(msg)
+    return found
+
+
+def _objects(path: Path) -> Iterator[_Mesh]:
+    """Meshes in a file, in its order."""
+    kind = path.suffix.lower().lstrip(".")
+    if kind not in FORMATS:
+        msg = f"{path}: must be one of {', '.join(FORMATS)}"
+        raise InputError(msg)
+    try:
+        with path.open("rb") as file:
+            head = file.read(84)
+    except OSError as error:
+        msg = f"{path}: cannot be read: {error.strerror}"
+        raise InputError(msg) from error
+    size = 84 + 50 * int.from_bytes(head[80:84], "little")
+    if kind == "stl" and len(head) == 84 and path.stat().st_size == size:
+        try:
+            yield read_stl(path)
+        except ToolError as error:
+            raise InputError(str(error)) from error
+        return
+    yield from _by_trimesh(path, kind)
+
+
+def _by_trimesh(path: Path, kind: str) -> Iterator[_Mesh]:
+    """What trimesh finds in a file, in mm if the file has a unit."""
+    import trimesh  # slow to import
+
+    try:
+        scene = trimesh.load_scene(path, file_type=kind, process=False)
+        unit = scene.units if kind == "3mf" else None
+        scale = float(trimesh.units.unit_conversion(unit, "mm")) if unit else 1.0
+        meshes = scene.dump()
+    except Exception as error:  # whatever its readers raise on a broken file
+        reason = " ".join(str(error).split()) or type(error).__name__
+        msg = f"{path}: not a whole {kind.upper()} file ({reason})"
+        raise InputError(msg) from error
+    for mesh in meshes:
+        if isinstance(mesh, trimesh.Trimesh):
+            points = np.asarray(mesh.vertices, dtype=np.float64) * scale
+            yield points, np.asarray(mesh.faces, dtype=np.int64)
+
+
+def _welded(path: Path, points: Floats, triangles: Ints) -> _Mesh:
+    """Equal points as one, without the faces that collapse."""
+    if not len(triangles):
+        msg = f"{path}: has no faces"
+        raise InputError(msg)
+    if not np.isfinite(points).all():
+        msg = f"{path}: a coordinate is not finite"
+        raise InputError(msg)
+    merged, where = np.unique(points + 0.0, axis=0, return_inverse=True)
+    triangles = where.reshape(-1)[triangles]
+    whole = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
+    return merged, triangles[whole]
+
+
+def _check_body(path: Path, points: Floats, triangles: Ints) -> None:
+    """Refuse a body that is inside out or crosses itself."""
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    sound = triangles[heights(points, triangles) > FLAT * size]
+    crossing = crossing_faces(points, sound, touch=-_DEEP * size)
+    if len(crossing):
+        place = _place(points[sound[crossing[0]]].mean(axis=(0, 1)))
+        msg = f"{path}: crosses itself: {len(crossing)} pairs of faces, one near {place}"
+        raise InputError(msg)
+    if not (enclosed := volume(points, triangles)) > 0:
+        msg = f"{path}: volume {enclosed:.6g}: must be above 0; its faces look inwards"
+        raise InputError(msg)
+
+
+def _check_sizes(parts: dict[str, _Mesh]) -> None:
+    """Refuse parts that cannot be in one unit."""
+    size = {n: float(np.linalg.norm(np.ptp(points, axis=0))) for n, (points, _) in parts.items()}
+    small, large = min(size, key=lambda n: size[n]), max(size, key=lambda n: size[n])
+    if size[large] > _UNITS * size[small]:
+        msg = (
+            f"{large} is {size[large]:.6g} long and {small} {size[small]:.6g}: "
+            f"must be in one unit, within {_UNITS:g} times of each other"
+        )
+        raise InputError(msg)
+
+
+def _place(point: Floats) -> str:
+    return "(" + ", ".join(f"{x:.6g}" for x in point.tolist()) + ")"

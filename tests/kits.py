@@ -1,0 +1,88 @@
+"""Real kits and joints, each made once a worker, and random settings inside their ranges."""
+
+import math
+from functools import cache
+
+import numpy as np
+
+from scadgen.element.pieces import Piece, add_surface
+from scadgen.joint.joint import DETAILS, make_joint
+from scadgen.joint.weave import BUILT_IN
+from scadgen.kit.build import VALENCE, Request, build
+from scadgen.solid.affine import PARAMETERS
+from scadgen.solid.shell import Shell
+
+#: Every kind of kit: frame, key, bore in mm.
+KINDS = [
+    (frame, key, bore)
+    for frame in ("hexagonal", "square")
+    for key in ("fixed", "loose")
+    for bore in (0.0, 1.5)
+]
+
+#: The built-in weave of each frame.
+WEAVES = {frame: BUILT_IN[frame] for frame in VALENCE}
+
+
+def named(kind):
+    """Name of a kind of kit, for pytest."""
+    frame, key, bore = kind
+    return f"{frame}-{key}-{'bored' if bore else 'solid'}"
+
+
+@cache
+def kit(frame, key="fixed", bore=0.0, detail="draft"):
+    """Make a kit."""
+    values = {"bore": bore} if bore else {}
+    return build(Request(frame, key, detail=detail, values=values))
+
+
+@cache
+def joint(frame, detail="draft"):
+    """Make the joint of a frame's solid kit with a fixed key, on the kit's lattice."""
+    extra = int(kit(frame, detail=detail).figures["lattice_extra"])
+    return make_joint(regular(VALENCE[frame]), WEAVES[frame], DETAILS[detail], extra)
+
+
+def regular(count):
+    """Directions of a regular joint's edges."""
+    return [2 * math.pi * n / count for n in range(count)]
+
+
+def mesh(surface):
+    """Points and triangles of a joint's surface, in sides."""
+    shell = Shell()
+    add_surface(shell, Piece(surface, np.zeros_like(surface.points), 0.0), ())
+    return surface.points, shell.solid("piece").triangles
+
+
+def bounds(kit, name, values):
+    """Lowest and highest value of a live parameter, given the others."""
+    limits = [r for r in kit.ranges if r.parameter == name]
+    return max(r.low(values) for r in limits), min(r.high(values) for r in limits)
+
+
+def inside(kit, shares):
+    """Settings inside all ranges: each parameter a share of the way between its bounds.
+
+    A parameter is chosen before those whose bounds depend on it.  None where the ones
+    before leave it no room.
+    """
+    values = {}
+    order = ("side", "clearance", "peg_clearance", "peg_width", "bore", "peg_chamfer")
+    for name in [n for n in (*order, "peg_length", "edge_length") if n in kit.values]:
+        low, high = bounds(kit, name, {**kit.values, **values})
+        if low > high:
+            return None
+        # Rounding must not take the sum past the end.
+        values[name] = min(low + shares[PARAMETERS.index(name)] * (high - low), high)
+    return {name: values[name] for name in kit.values}
+
+
+def random_inside(kit, seed):
+    """Random settings inside all ranges, the same for the same seed."""
+    rng = np.random.default_rng(seed)
+    while True:
+        values = inside(kit, rng.random(len(PARAMETERS)).tolist())
+        if values:
+            return {name: round(value, 6) for name, value in values.items()}

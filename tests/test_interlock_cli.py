@@ -1,0 +1,203 @@
+"""``scadgen interlock`` on files as somebody might download them."""
+
+import io
+import json
+
+import numpy as np
+import puzzles
+import pytest
+from PIL import Image
+from shapes import box
+from test_contacts import joined
+
+from scadgen.cli.main import main
+from scadgen.emit.mesh import mesh_bytes
+
+
+def write(folder, meshes, names, kind="stl"):
+    paths = []
+    for (points, triangles), name in zip(meshes, names, strict=True):
+        path = folder / f"{name}.{kind}"
+        path.write_bytes(mesh_bytes(points, triangles, kind))
+        paths.append(str(path))
+    return paths
+
+
+@pytest.fixture
+def run(capsys):
+    def run(*arguments):
+        with pytest.raises(SystemExit) as left:
+            main(["interlock", *map(str, arguments)])
+        out, err = capsys.readouterr()
+        return left.value.code, out, err
+
+    return run
+
+
+@pytest.fixture
+def refused(run):
+    def refused(*arguments):
+        code, out, err = run(*arguments)
+        assert code == 2
+        assert out == ""
+        assert err.count("\n") == 1
+        return err
+
+    return refused
+
+
+BURR = ("slot", "rail", "bar")
+
+
+@pytest.mark.parametrize("kind", ["stl", "3mf", "obj"])
+def test_a_burr_is_locked_with_its_key_held(run, tmp_path, kind):
+    files = write(tmp_path, puzzles.three_piece_burr(), BURR, kind)
+    code, out, err = run(*files)
+    assert (code, err) == (1, "")
+    assert out.startswith("movable\n")
+    assert "held         slot, the largest part" in out
+    assert "bar         moves along (0, 0, 1)" in out
+    assert "keys         bar, " in out
+    code, out, err = run(*files, "--hold", "slot,bar")
+    assert (code, err) == (0, "")
+    assert out.startswith("locked\n")
+    assert "rank 6" in out
+
+
+def test_json_says_it_all(run, tmp_path):
+    files = write(tmp_path, puzzles.three_piece_burr(), BURR)
+    code, out, _ = run(*files, "--json")
+    found = json.loads(out)
+    assert code == 1
+    assert not found["locked"]
+    assert found["held"] == ["slot"]
+    assert found["certificate"] is None
+    assert [p["part"] for p in found["motion"]["parts"]] == ["bar"]
+    assert found["alone"]["rail"] is None
+    assert found["alone"]["bar"]["slides"]
+    code, out, _ = run(*files, "--json", "--hold", "bar,slot")
+    found = json.loads(out)
+    assert code == 0
+    assert found["certificate"]["residual"] < 1e-8
+    assert found["certificate"]["rank"] == 6
+    assert found["motion"] is None
+
+
+@pytest.mark.parametrize("kind", ["stl", "3mf", "obj"])
+def test_a_file_with_several_bodies_is_several_parts(run, tmp_path, kind):
+    (file,) = write(tmp_path, [joined(*puzzles.six_piece_burr())], ["burr"], kind)
+    code, out, _ = run(file, "--json")
+    found = json.loads(out)
+    assert code == 1
+    assert sorted(found["alone"]) == [f"burr.{n}" for n in range(1, 7)]
+    (key,) = (name for name, motion in found["alone"].items() if motion)
+    held = ",".join(sorted({key, *found["held"]}))
+    assert len(found["keys"]) == 5
+    first = next(n for n in found["alone"] if n != key)
+    assert run(file, "--hold", f"{key},{first}")[0] == 0
+    assert held
+
+
+def test_text_stl_and_ply_are_read(run, tmp_path):
+    import trimesh
+
+    for kind in ("stl_ascii", "ply", "off"):
+        files = []
+        for (points, triangles), name in zip(puzzles.three_piece_burr(), BURR, strict=True):
+            path = tmp_path / f"{name}.{kind.partition('_')[0]}"
+            trimesh.Trimesh(points, triangles, process=False).export(path, file_type=kind)
+            files.append(path)
+        assert run(*files)[0] == 1
+        assert run(*files, "--hold", "slot,bar")[0] == 0
+
+
+def test_clearance_is_bridged_by_the_tolerance(run, refused, tmp_path):
+    files = write(tmp_path, puzzles.cube_in_box(0.1), ("box", "cube"))
+    assert "no two parts touch within" in refused(*files)
+    code, out, _ = run(*files, "--tolerance", "0.11")
+    assert code == 0
+    assert "within 0.11 mm" in out
+
+
+def test_the_motion_can_be_seen(run, tmp_path):
+    files = write(tmp_path, puzzles.three_piece_burr(), BURR)
+    gif, png = tmp_path / "a.gif", tmp_path / "a.png"
+    assert run(*files, "--gif", gif, "--png", png)[0] == 1
+    with Image.open(gif) as film:
+        assert film.n_frames > 10
+        first = np.asarray(film.convert("RGB"), dtype=int)
+        film.seek(film.n_frames // 2)
+        middle = np.asarray(film.convert("RGB"), dtype=int)
+        film.seek(film.n_frames - 1)
+        last = np.asarray(film.convert("RGB"), dtype=int)
+    assert np.abs(middle - first).mean() > 5 * np.abs(last - first).mean() > 0
+    again = tmp_path / "b.gif"
+    run(*files, "--gif", again)
+    assert again.read_bytes() == gif.read_bytes()
+    with Image.open(io.BytesIO(png.read_bytes())) as picture:
+        assert picture.size == (1200, 900)
+
+
+def test_nothing_is_filmed_where_nothing_moves(run, tmp_path):
+    files = write(tmp_path, puzzles.three_rods(), "abc")
+    code, out, err = run(*files, "--gif", tmp_path / "a.gif", "--png", tmp_path / "a.png")
+    assert code == 0
+    assert out.startswith("locked")
+    assert "nothing moves" in err
+    assert not (tmp_path / "a.gif").exists()
+    assert (tmp_path / "a.png").exists()
+
+
+def test_files_that_are_none_are_refused(refused, tmp_path):
+    (good,) = write(tmp_path, [box((0, 0, 0), (1, 1, 1))], ["good"])
+    for name, data, says in (
+        ("empty.stl", b"", "has no faces|not a whole"),
+        ("none.stl", bytes(84), "has no faces"),
+        ("half.stl", (tmp_path / "good.stl").read_bytes()[:-20], "not a whole|not closed|has no"),
+        ("noise.3mf", b"PK\x03\x04 nothing", "not a whole 3MF"),
+        ("notes.txt", b"hello", "must be one of stl"),
+    ):
+        (tmp_path / name).write_bytes(data)
+        err = refused(good, tmp_path / name)
+        assert name in err
+        assert any(part in err for part in says.split("|")), err
+    assert "cannot be read" in refused(good, tmp_path / "missing.stl")
+    assert "at least two" in refused(good)
+
+
+def test_meshes_that_are_no_solids_are_refused_and_where(refused, tmp_path):
+    points, triangles = box((0, 0, 0), (1, 1, 1))
+    spike = points.copy()
+    spike[7] = (-1.0, 0.4, 0.3)
+    meshes = [
+        (points, triangles[1:]),
+        (points, triangles[:, ::-1]),
+        (spike, triangles),
+        (points * [1, 1, np.nan], triangles),
+    ]
+    (good,) = write(tmp_path, [box((0, 0, 1), (1, 1, 2))], ["good"])
+    says = ("not closed: 3 open edges, one at (", "look inwards", "crosses itself", "not finite")
+    for mesh, text in zip(meshes, says, strict=True):
+        data = mesh_bytes(points, triangles[: len(mesh[1])], "stl")
+        faces = np.frombuffer(data[84:], dtype=np.uint8).reshape(-1, 50).copy()
+        corners = mesh[0][mesh[1]].astype("<f4").reshape(len(faces), -1)
+        faces[:, 12:48] = corners.view(np.uint8)
+        (tmp_path / "bad.stl").write_bytes(data[:84] + faces.tobytes())
+        err = refused(good, tmp_path / "bad.stl")
+        assert "bad.stl" in err
+        assert text in err
+
+
+def test_other_requests_that_cannot_be_met_are_refused(refused, tmp_path):
+    files = write(tmp_path, puzzles.three_piece_burr(), BURR)
+    assert "--hold key: must be one of slot, rail, bar" in refused(*files, "--hold", "key")
+    assert "holds all parts" in refused(*files, "--hold", "slot,rail,bar")
+    assert "tolerance = -1" in refused(*files, "--tolerance", "-1")
+    (tmp_path / "other").mkdir()
+    (twin,) = write(tmp_path / "other", [box((9, 9, 9), (10, 10, 10))], ["bar"])
+    assert "a part bar already" in refused(*files, twin)
+    (metres,) = write(tmp_path, [box((0, 0, 0), (0.005, 0.005, 0.005))], ["metres"])
+    assert "must be in one unit" in refused(*files, metres)
+    (inside,) = write(tmp_path, [box((0, 0, 0), (2, 1, 1))], ["inside"])
+    err = refused(*files, inside)
+    assert "slot and inside overlap by 2 mm3" in err

