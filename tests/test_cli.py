@@ -25,7 +25,7 @@ from scadgen.tools.stl import check_stl
 
 ROOT = Path(__file__).parent.parent
 DRAFT = ("--detail", "draft")
-WEAVE = {"ring_ratio": 1.555, "span": 0.817, "amplitude": 0.43, "bend": 0.691, "periods": 1.516}
+WEAVE = {name: v for name, v in BUILT_IN["hexagonal"].as_dict().items() if name != "name"}
 
 
 @pytest.fixture
@@ -172,6 +172,18 @@ def test_kit_takes_a_weave_from_a_file(run, tmp_path):
     assert load(tmp_path / "kit").weave == {**WEAVE, "name": "mine"}
 
 
+def test_kit_that_does_not_lock_is_made_only_if_asked_for_unchecked(run, refused, tmp_path):
+    straight = {**WEAVE, "ring_ratio": 1.8, "span": 0.5, "amplitude": 0.0, "bend": 0.0}
+    (tmp_path / "straight.json").write_text(json.dumps(straight))
+    words = ("kit", "hexagonal", *DRAFT, "--weave", tmp_path / "straight.json")
+    said = refused(*words, "-o", tmp_path / "kit")
+    assert "weave straight: " in said
+    assert "--unchecked makes the kit all the same" in said
+    assert not (tmp_path / "kit").exists()
+    assert run(*words, "--unchecked", "-o", tmp_path / "kit")[0] == 0
+    assert load(tmp_path / "kit").weave["name"] == "straight"
+
+
 @pytest.mark.parametrize("kind", ["stl", "3mf", "obj", "glb"])
 def test_export_is_read_back_with_the_right_volume(kind, run, folder, tmp_path):
     trimesh = pytest.importorskip("trimesh")
@@ -281,8 +293,10 @@ def test_it_can_be_interrupted(folder, tmp_path):
 
 # What is refused
 
+NUMBERS = ("ring_ratio", "span", "amplitude", "bend", "periods")
 WEAVES = {
     "falls-apart": (2.48, 0.69, 0.89, 0.99, 2.51),
+    "slides": (1.8, 0.5, 0.0, 0.0, 1.0),
     "loses-footprint": (1.809, 0.98, 0.093, 0.674, 1.018),
 }
 
@@ -315,6 +329,7 @@ BAD_KITS = [
     ("hexagonal", ("--key", "loose", "--peg-length", "3"), "peg_length = 3 mm: must be "),
     ("hexagonal", ("--weave", "granny"), "weave 'granny': neither a file nor one of hexagonal"),
     ("hexagonal", ("--weave", "falls-apart.json"), "a connector falls apart into 3 pieces"),
+    ("square", ("--weave", "slides.json"), "whole connectors lock: 1 parts can move"),
     ("square", ("--weave", "loses-footprint.json"), "weave loses-footprint: only "),
     ("hexagonal", ("--weave", "empty.json"), "weave 'empty.json': not a JSON file"),
     ("hexagonal", ("--weave", "list.json"), "weave list: must be a JSON object with amplitude"),
@@ -335,7 +350,7 @@ BAD_KITS = [
 def test_a_kit_that_cannot_be_is_refused(frame, words, message, refused, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     for name, numbers in WEAVES.items():
-        entries = dict(zip(WEAVE, numbers, strict=True))
+        entries = dict(zip(NUMBERS, numbers, strict=True))
         Path(f"{name}.json").write_text(json.dumps(entries))
     Path("empty.json").write_text("")
     Path("list.json").write_text("[]")

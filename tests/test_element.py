@@ -48,20 +48,20 @@ def test_volumes_by_hand(kind):
         )
         square, socket = side**2, (peg + 2 * play) ** 2
         if made.key == "fixed":
-            # A peg stands on its tube, which starts half a clearance beyond the connector.
-            stub = peg**2 * (length + gap / 2 - v["peg_chamfer"]) + tip - bore * (length + gap / 2)
+            # A peg stands on its tube, which starts a clearance beyond the connector.
+            stub = peg**2 * (length + gap - v["peg_chamfer"]) + tip - bore * (length + gap)
             loose_peg = stub + (square - bore) * CAP * side
         else:
-            deep = pad + length + play - start - gap / 2
+            deep = pad + length + play - start - gap
             stub = (bore - socket) * deep
             loose_peg = peg**2 * (length - 2 * v["peg_chamfer"]) + 2 * tip - bore * length
-        tube = (square - bore) * (v["edge_length"] - 2 * start - gap)
-        half_gap = (square - bore) * gap / 2
+        tube = (square - bore) * (v["edge_length"] - 2 * start - 2 * gap)
+        beside = (square - bore) * gap
         expected = {
             "tube": tube,
             "two_sided": tube + 2 * stub,
-            "one_sided": found["connector"] + half_gap + tube + stub,
-            "basic": 2 * (found["connector"] + half_gap) + tube,
+            "one_sided": found["connector"] + beside + tube + stub,
+            "basic": 2 * (found["connector"] + beside) + tube,
             "peg": loose_peg,
         }
         for name, content in expected.items():

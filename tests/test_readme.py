@@ -105,10 +105,14 @@ def test_one_joint_is_listed_to_try_first():
     assert "3 x `connector`, 2 x `half`, 1 x `peg`." in readme(stub_kit("square"))
 
 
-def test_it_does_not_claim_that_the_joint_is_proven_to_lock():
-    text = section(readme(stub_kit()), "What is known about this kit")
-    assert "Not proven by this version" in text
-    assert "scadgen check" in text
+def test_it_says_what_is_proved_of_the_joint_or_that_nothing_is():
+    unchecked = section(readme(stub_kit()), "What is known about this kit")
+    assert "**Unchecked**" in unchecked
+    assert "Proved" not in unchecked
+    checked = replace(stub_kit(), verdicts={"whole connectors lock": "9 contacts in balance"})
+    text = section(readme(checked), "What is known about this kit")
+    assert "- whole connectors lock: 9 contacts in balance" in text
+    assert "nchecked" not in text
 
 
 def test_command_can_be_copied():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,7 +21,17 @@ from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.gap import overlap_volume, smallest_gap
 from scadgen.solid.mesh import solid_faults, volume
 
-__all__ = ["CLEARANCES", "closed", "footprint", "gaps", "joint_of", "partition", "placed", "same", "sampling"]
+__all__ = [
+    "CLEARANCES",
+    "closed",
+    "footprint",
+    "gaps",
+    "joint_of",
+    "partition",
+    "placed",
+    "same",
+    "sampling",
+]
 
 #: Clearances at which the gaps are measured, in sides: 0.05, 0.1, 0.2 and 0.4 mm at side 10 mm.
 CLEARANCES = (0.005, 0.01, 0.02, 0.04)
@@ -57,7 +68,7 @@ def same(kit: Kit) -> Result:
         {**kit.values},
         kit.command,
     )
-    equal = dumps(build(request)) == dumps(kit)
+    equal = dumps(replace(build(request), verdicts=kit.verdicts)) == dumps(kit)
     return Result(
         "the parameters make this kit",
         equal,

@@ -11,6 +11,7 @@ from scadgen.check.result import Result
 from scadgen.element.ends import connector
 from scadgen.element.pieces import Piece
 from scadgen.element.squares import Key
+from scadgen.errors import GeometryError
 from scadgen.frame.placement import Placement
 from scadgen.interlock.assembly import make_assembly
 from scadgen.interlock.certificate import check_certificate
@@ -21,7 +22,15 @@ from scadgen.joint.joint import DETAILS, Detail
 from scadgen.kit.build import VALENCE
 from scadgen.kit.model import Kit
 
-__all__ = ["TIP", "connectors_lock", "finer_connectors_lock", "only_the_peg_moves", "tightness"]
+__all__ = [
+    "TIP",
+    "connectors_lock",
+    "finer_connectors_lock",
+    "only_the_peg_moves",
+    "prove",
+    "tightness",
+    "without_the_peg",
+]
 
 #: Faces closer than this, in sides, touch; without clearance they coincide.
 _TOUCH = 1e-5
@@ -40,7 +49,9 @@ def _whole(kit: Kit) -> list[Mesh]:
     """All connectors of a joint, none of them split, without clearance."""
     count = VALENCE[kit.frame]
     values = {**kit.values, "clearance": 0.0}
-    places = [Placement("connector", (0, 0), 360 / count * n, flip=False, role="") for n in range(count)]
+    places = [
+        Placement("connector", (0, 0), 360 / count * n, flip=False, role="") for n in range(count)
+    ]
     return [placed(kit, place, values) for place in places]
 
 
@@ -55,7 +66,14 @@ def finer_connectors_lock(kit: Kit) -> Result:
     detail = DETAILS[kit.detail]
     made = joint_of(kit, Detail(2 * detail.samples, 2 * detail.cells - 1))
     surface = made.connectors[0]
-    key = Key("fixed", False, made.lattice.tube_start, made.lattice.pad, 0.0, 0.0)
+    key = Key(
+        style="fixed",
+        bored=False,
+        tube_start=made.lattice.tube_start,
+        pad=made.lattice.pad,
+        window=0.0,
+        depth=0.0,
+    )
     solid = connector(key, Piece(surface, np.zeros_like(surface.points), 0.0))
     points = solid.points({**kit.values, "clearance": 0.0})
     count = VALENCE[kit.frame]
@@ -82,9 +100,54 @@ def only_the_peg_moves(kit: Kit) -> Iterator[Result]:
         way = found.translations[0] / np.linalg.norm(found.translations[0])
         straight = np.linalg.norm(way[1:]) < _STRAIGHT and not found.rotations.any()
         good = found.parts == (peg,) and bool(straight)
-        figure = "the peg, along its axis" if good else f"parts {', '.join(names[n] for n in found.parts)}"
+        figure = (
+            "the peg, along its axis"
+            if good
+            else f"parts {', '.join(names[n] for n in found.parts)}"
+        )
     yield Result("in the joint only the peg moves", good, figure, "the peg, along its axis")
     yield _locked("with the peg held the joint locks", meshes, contacts, held=(held, peg))
+
+
+def without_the_peg(kit: Kit) -> Iterator[Result]:
+    """Whether, once the peg is out, the pieces come loose in turn: half A, half B, the rest.
+
+    To first order: what starts to move may still get stuck, what does not start is stuck.
+    """
+    values = {**kit.values, "clearance": 0.0, "peg_clearance": 0.0}
+    meshes = [placed(kit, place, values) for place in kit.joint if place.part != "peg"]
+    names = [place.part for place in kit.joint if place.part != "peg"]
+    first, second = (n for n, name in enumerate(names) if name == "half")
+    rest = [n for n, name in enumerate(names) if name == "connector"]
+    for name, moving, still in (
+        ("peg out: half A comes loose", [first], [second, *rest]),
+        ("then half B comes loose", [second], rest),
+        ("then the connectors come loose", rest[1:], rest[:1]),
+    ):
+        chosen = [meshes[n] for n in (*moving, *still)]
+        held = range(len(moving), len(chosen))
+        found = verdict(make_assembly(chosen, _contacts(kit, chosen), held))
+        loose = isinstance(found, Motion)
+        yield Result(name, loose, "it does" if loose else "locked without clearance", "loose")
+
+
+def prove(kit: Kit) -> dict[str, str]:
+    """What is proved of a kit before it is written.
+
+    Raises
+    ------
+    GeometryError
+        It does not lock, or the locked pieces do not come loose without the peg.
+    """
+    results = [connectors_lock(kit), *only_the_peg_moves(kit), *without_the_peg(kit)]
+    for result in results:
+        if not result.good:
+            msg = (
+                f"weave {kit.weave['name']}: {result.check}: {result.figure}, must be "
+                f"{result.bound}; another weave helps, or --unchecked makes the kit all the same"
+            )
+            raise GeometryError(msg)
+    return {result.check: result.figure for result in results}
 
 
 def tightness(kit: Kit) -> Result:
@@ -104,14 +167,13 @@ def _contacts(kit: Kit, meshes: Sequence[Mesh]) -> Contacts:
     return find_contacts(meshes, _TOUCH * kit.values["side"])
 
 
-def _locked(
-    name: str, meshes: Sequence[Mesh], contacts: Contacts, held: Collection[int]
-) -> Result:
+def _locked(name: str, meshes: Sequence[Mesh], contacts: Contacts, held: Collection[int]) -> Result:
     """Whether parts are locked, with the certificate checked anew."""
     found = verdict(make_assembly(meshes, contacts, held))
     if isinstance(found, Certificate):
         left = check_certificate(contacts, held, len(meshes), found)
-        figure = f"{len(found.rows)} contacts in balance, {left:.0e} left"
-        return Result(name, bool(left < _BALANCED), figure, f"{_BALANCED:g}")
+        good = bool(left < _BALANCED)
+        figure = f"{len(found.rows)} contacts in balance" if good else f"{left:.0e} off balance"
+        return Result(name, good, figure, "locked")
     figure = f"{len(found.parts)} parts can move"
     return Result(name, good=False, figure=figure, bound="locked")

@@ -39,6 +39,7 @@ def checks(kit: Kit, scad: Path, timeout: float) -> Iterator[Result]:
     yield locking.connectors_lock(kit)
     yield locking.finer_connectors_lock(kit)
     yield from locking.only_the_peg_moves(kit)
+    yield from locking.without_the_peg(kit)
     yield locking.tightness(kit)
     with tempfile.TemporaryDirectory(prefix="scadgen-") as name:
         folder = Path(name)

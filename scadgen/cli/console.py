@@ -6,6 +6,7 @@ import math
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from typing import Any
 
 import click
 
@@ -20,15 +21,17 @@ def _seconds(_: click.Context, __: click.Parameter, value: float) -> float:
     return value
 
 
-#: How long OpenSCAD may take for one drawing.
-timeout_option = click.option(
-    "--timeout",
-    default=300.0,
-    show_default=True,
-    metavar="S",
-    callback=_seconds,
-    help="Limit a drawing.",
-)
+def timeout_option(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command the option of how long OpenSCAD may take for one drawing."""
+    option = click.option(
+        "--timeout",
+        default=300.0,
+        show_default=True,
+        metavar="S",
+        callback=_seconds,
+        help="Limit a drawing.",
+    )
+    return option(command)
 
 
 @contextmanager

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shlex
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -74,8 +75,11 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
     "  [default: the one of the frame's name]",
 )
 @_lengths
+@click.option(
+    "--unchecked", is_flag=True, help="Make the kit even if its joint is not proved to lock."
+)
 @click.option("--json", "as_json", is_flag=True, help="Say what was made as JSON.")
-def kit(
+def kit(  # noqa: PLR0913, PLR0917  one argument an option
     frame: str,
     output: Path | None,
     rows: int,
@@ -83,18 +87,21 @@ def kit(
     key: str,
     detail: str,
     weave: str | None,
-    as_json: bool,  # noqa: FBT001  click passes flags so
+    unchecked: bool,  # noqa: FBT001  click passes flags so
+    as_json: bool,  # noqa: FBT001
     **lengths: float | None,
 ) -> None:
     """Make a kit for a hexagonal or square frame.
 
     Writes kit.json, an OpenSCAD file with sliders, a Makefile, a README and a preview, all or
-    nothing.  Lengths are in mm.
+    nothing, once it is proved that the joint locks and comes apart without its peg.  Lengths
+    are in mm.
 
     \b
     scadgen kit hexagonal -o out/hexagonal
     scadgen kit square --rows 3 --columns 4 --side 8 --clearance 0.15 -o shelf
     """  # noqa: D301  click wants the character
+    from scadgen.check.locking import prove
     from scadgen.emit.folder import write_kit
     from scadgen.kit.build import Request, build
     from scadgen.kit.store import summary
@@ -105,13 +112,18 @@ def kit(
     request = Request(frame, key, rows, columns, detail, chosen, values, _command())
     with status("computing the joint") as say:
         made = build(request)
+        if not unchecked:
+            say("proving that the joint locks")
+            made = replace(made, verdicts=prove(made))
         write_kit(made, folder, progress=lambda file: say(f"writing {file}"))
     if as_json:
         click.echo(json.dumps({"folder": str(folder), **summary(made)}, indent=1))
         return
     bill = summary(made)["bill"]
     count = sum(bill.values())
-    click.echo(f"{click.format_filename(folder)}: {count} pieces to print for {rows} x {columns} cells")
+    click.echo(
+        f"{click.format_filename(folder)}: {count} pieces to print for {rows} x {columns} cells"
+    )
     for part, number in bill.items():
         click.echo(f"  {number:4d} {part}")
     place = shlex.quote(click.format_filename(folder))

@@ -17,7 +17,7 @@ from scadgen.solid.affine import AffineSolid, Floats
 from scadgen.solid.planar import triangulate
 from scadgen.solid.shell import Shell
 
-__all__ = ["Piece", "add_facet", "add_surface", "half"]
+__all__ = ["Piece", "add_facet", "add_surface", "corners_of", "half"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -59,6 +59,7 @@ def scad(kit: Kit) -> str:
         command=comment(kit.command),
         weave=comment(", ".join(f"{k} = {v}" for k, v in kit.weave.items())),
         key=kit.key,
+        verdicts={comment(name): comment(found) for name, found in kit.verdicts.items()},
         detail=comment(kit.detail),
         frame=kit.frame,
         file=f"{kit.frame}.scad",

@@ -1,7 +1,7 @@
 """Signed distance to a solid, on a grid: below zero inside, quick to ask at many points.
 
-Near the surface the nodes know their exact distance; farther out they know a bound below
-it.  Between nodes the distance is linear in each coordinate, which is exact beside flat faces
+Near the surface the nodes find their exact distance when first asked; farther out they know
+a bound below it.  Between nodes the distance is linear in each coordinate, which is exact beside flat faces
 and rounds edges off by a third of a cell; so it guides a search, and proves nothing.
 """
 
@@ -17,6 +17,12 @@ __all__ = ["Field", "refined"]
 
 #: Cells around the box of the solid, and cells within which distances are exact.
 _MARGIN, _EXACT = 3, 2.5
+
+#: Distance, in cells, of the farthest node that the surface marks; a margin for the rest.
+_MARKED = 1.5
+
+#: Pieces of the surface among which the nearest is looked for, by their middles.
+_PIECES = 4
 
 #: Where the grid begins, in cells: at no round number, as the coordinates of vertices are.
 _OFF = (0.3819660, 0.4142136, 0.2679492)
@@ -73,25 +79,25 @@ class Field:
         self.shape = np.ceil((points.max(axis=0) - self.low) / cell).astype(np.int64) + _MARGIN + 1
         _, ny, nz = self.shape
         self._corner = (_CORNERS * [ny * nz, nz, 1]).sum(axis=1)
-        distance = self._distance(points, triangles)
-        distance[self._inside(points[triangles])] *= -1
-        self._nodes = distance.ravel()
+        corners, origin = refined(points, triangles, cell)
+        middles = corners.mean(axis=1)
+        self._faces, self._middles = points[triangles[origin]], cKDTree(middles)
+        unmarked = np.ones(self.shape, dtype=bool)
+        unmarked[tuple(np.rint((middles - self.low) / cell).astype(np.int64).T)] = False
+        away = distance_transform_edt(unmarked)
+        self._known = (away > _EXACT).ravel()
+        sign = np.where(self._inside(points[triangles]), -1, 1)
+        self._nodes: Floats = (sign * np.maximum(away - _MARKED, 0.1) * cell).ravel()
 
-    def _distance(self, points: Floats, triangles: Ints) -> Floats:
-        """Distance of each node from the surface."""
-        corners, origin = refined(points, triangles, self.cell / 2)
-        samples = corners.mean(axis=1)
-        at = np.rint((samples - self.low) / self.cell).astype(np.int64)
-        empty = np.ones(self.shape, dtype=bool)
-        empty[tuple(at.T)] = False
-        distance: Floats = distance_transform_edt(empty)
-        near = np.argwhere(distance <= _EXACT)
-        distance = np.maximum(distance - 1.2, 0) * self.cell
-        asked = self.low + near * self.cell
-        _, nearest = cKDTree(samples).query(asked)
-        exact = _from_triangles(asked, points[triangles[origin[nearest]]])
-        distance[tuple(near.T)] = exact
-        return distance
+    def _learn(self, nodes: Ints) -> None:
+        """Find the distances of some nodes that are not known yet."""
+        at = self.low + np.column_stack(np.unravel_index(nodes, self.shape)) * self.cell
+        _, near = self._middles.query(at, k=min(_PIECES, self._middles.n))
+        near = near.reshape(len(at), -1)
+        faces = self._faces[near].reshape(-1, 3, 3)
+        found = _from_triangles(np.repeat(at, near.shape[1], axis=0), faces)
+        self._nodes[nodes] = np.sign(self._nodes[nodes]) * found.reshape(near.shape).min(axis=1)
+        self._known[nodes] = True
 
     def _inside(self, corners: Floats) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
         """Which nodes are inside: faces above that look up, less those that look down."""
@@ -108,9 +114,7 @@ class Field:
         face, column, weight = face[hit], column[hit], np.column_stack(weights)[hit]
         height = (weight * flat[face, :, 2]).sum(axis=1) / weight.sum(axis=1)
         crossed = np.zeros(self.shape, dtype=np.int64)
-        np.add.at(
-            crossed, (*column.T, np.floor(height).astype(np.int64)), np.where(up[hit], 1, -1)
-        )
+        np.add.at(crossed, (*column.T, np.floor(height).astype(np.int64)), np.where(up[hit], 1, -1))
         return crossed[:, :, ::-1].cumsum(axis=2)[:, :, ::-1] > 0
 
     def _cell(self, points: Floats) -> tuple[Ints, Floats, Floats]:
@@ -125,7 +129,11 @@ class Field:
     def value(self, points: Floats) -> Floats:
         """Signed distance at points ``(k, 3)``; outside the grid a bound below it."""
         number, at, outside = self._cell(points)
-        node = self._nodes[number[:, None] + self._corner]
+        corner = number[:, None] + self._corner
+        unknown = corner[~self._known[corner]]
+        if len(unknown):
+            self._learn(np.unique(unknown))
+        node = self._nodes[corner]
         across = node[:, :4] + (node[:, 4:] - node[:, :4]) * at[:, :1]
         across = across[:, :2] + (across[:, 2:] - across[:, :2]) * at[:, 1:2]
         inner: Floats = across[:, 0] + (across[:, 1] - across[:, 0]) * at[:, 2]
@@ -160,7 +168,9 @@ def _from_triangles(points: Floats, corners: Floats) -> Floats:
     sides = np.roll(corners, -1, axis=1) - corners
     normal = np.cross(sides[:, 0], sides[:, 1])
     length = np.linalg.norm(normal, axis=1)
-    normal = np.divide(normal, length[:, None], out=np.zeros_like(normal), where=length[:, None] > 0)
+    normal = np.divide(
+        normal, length[:, None], out=np.zeros_like(normal), where=length[:, None] > 0
+    )
     arm = points[:, None] - corners
     share = (arm * sides).sum(axis=2) / np.maximum((sides**2).sum(axis=2), 1e-300)
     foot = np.clip(share, 0, 1)[:, :, None] * sides

@@ -182,5 +182,3 @@ def united(meshes: Sequence[Mesh]) -> Manifold:
             raise InvariantError(msg)
         solids.append(solid)
     return Manifold.batch_boolean(solids, OpType.Add)
-
-

@@ -22,7 +22,7 @@ from scadgen.solid.affine import Floats, Ints
 __all__ = ["distances", "place"]
 
 #: Newton steps; they converge quadratically from within a cell.
-_STEPS = 6
+_STEPS = 5
 
 #: How far a vertex may move from where it starts, in diameters of its feature.
 _STRAY = 0.5

@@ -33,7 +33,7 @@ _SLIDE = 0.12
 _ALONG = 0.25
 
 #: Levels at which the ring's faces are looked at.
-_LEVELS = 41
+_LEVELS = 21
 
 #: Sides of the walls' polygons shorter than this share of a cell are merged.
 _SHORT = 0.5

@@ -28,8 +28,8 @@ _LIMITS: Mapping[str, tuple[float, float]] = {
     "periods": (0.25, 4.0),
 }
 
-#: Newton steps to the nearest point; quadratic from a sample's distance, so 1e-15 after 6.
-_STEPS = 6
+#: Newton steps to the nearest point; quadratic from a sample's distance, so 1e-12 after 4.
+_STEPS = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,9 +198,8 @@ BUILT_IN: Mapping[str, Weave] = MappingProxyType(
     {
         w.name: w
         for w in (
-            Weave(1.555, 0.817, 0.43, 0.691, 1.516, name="hexagonal"),
-            Weave(2.376, 0.804, 0.541, 0.574, 1.504, name="square"),
-            Weave(1.504, 0.848, 0.336, 0.604, 1.409, name="hexagonal-strong"),
+            Weave(1.583, 0.892, 0.354, 0.674, 1.317, name="hexagonal"),
+            Weave(2.089, 0.843, 0.406, 0.578, 1.4, name="square"),
         )
     }
 )

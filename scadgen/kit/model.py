@@ -6,7 +6,7 @@ Stages before this one compute; emitters after it read kits and nothing else.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from scadgen.frame.placement import Placement
 from scadgen.solid.affine import AffineSolid, Range
@@ -42,6 +42,8 @@ class Kit:
         The pieces that meet at one vertex, assembled; the key's edge along +x.
     figures
         What was measured on the kit, by name; plain numbers with their unit in the name.
+    verdicts
+        What was proved of its joint, by name; empty for a kit that was not checked.
     """
 
     frame: str
@@ -56,3 +58,4 @@ class Kit:
     parts: Mapping[str, AffineSolid]
     joint: tuple[Placement, ...]
     figures: Mapping[str, float]
+    verdicts: Mapping[str, str] = field(default_factory=dict)

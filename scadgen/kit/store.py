@@ -72,6 +72,7 @@ def summary(kit: Kit) -> dict[str, Any]:
         "values": dict(kit.values),
         "bill": bill(LAYOUTS[kit.frame](kit.rows, kit.columns, kit.key)),
         "figures": dict(kit.figures),
+        "verdicts": dict(kit.verdicts),
     }
 
 
@@ -195,6 +196,7 @@ def _kit(document: dict[str, Any]) -> Kit:
             for p in document["joint"]
         ),
         figures=document["figures"],
+        verdicts=document["verdicts"],
     )
 
 
