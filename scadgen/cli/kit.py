@@ -102,7 +102,7 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
     scadgen kit square --rows 3 --columns 4 --side 8 --clearance 0.15 -o shelf
     """  # noqa: D301  click wants the character
     from scadgen.check.locking import prove
-    from scadgen.emit.folder import write_kit
+    from scadgen.emit.folder import check_folder, write_kit
     from scadgen.kit.build import Request, build
     from scadgen.kit.store import summary
 
@@ -110,6 +110,7 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
     chosen = _weave(weave) if weave else None
     folder = output or Path(frame)
     request = Request(frame, key, rows, columns, detail, chosen, values, _command())
+    check_folder(folder)
     with status("computing the joint") as say:
         made = build(request)
         if not unchecked:

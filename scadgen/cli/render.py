@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -56,18 +57,25 @@ def render(
         msg = f"cannot write to {str(target)!r}: {error.strerror}"
         raise InputError(msg) from error
 
+    stop = threading.Event()
+
     def draw(part: str) -> tuple[str, str, str]:
         output = target / f"{part}.{kind}"
         options = openscad.PICTURE if kind == "png" else ()
         scad = folder / f"{kit.frame}.scad"
         setting: dict[str, str | float] = {"part": part, **values}
-        done = openscad.render(scad, output, setting, timeout=timeout, options=options)
+        done = openscad.render(scad, output, setting, timeout=timeout, options=options, stop=stop)
         content = f"{check_stl(output) / 1000:.2f} cm3, watertight" if kind == "stl" else ""
         return click.format_filename(output), f"{done.seconds:.1f} s", content
 
     try:
         with status(f"drawing {folder}"), ThreadPoolExecutor(jobs) as pool:
-            rows = list(pool.map(draw, parts or tuple(kit.parts)))
+            try:
+                rows = list(pool.map(draw, parts or tuple(kit.parts)))
+            except BaseException:  # an interrupt as well: nothing is left running
+                stop.set()
+                pool.shutdown(wait=False, cancel_futures=True)
+                raise
     finally:
         if not any(target.iterdir()):
             target.rmdir()

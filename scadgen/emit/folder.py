@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 
 from scadgen.emit.makefile import makefile, stl_check
@@ -16,7 +17,10 @@ from scadgen.errors import InputError
 from scadgen.kit.model import Kit
 from scadgen.kit.store import dumps
 
-__all__ = ["files_of", "write_kit"]
+__all__ = ["check_folder", "files_of", "write_kit"]
+
+#: What the kit's Makefile and `scadgen render` write, which a new kit makes stale.
+_RENDERED = {"stl", "3mf", "png", "plates", ".build"}
 
 
 def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
@@ -51,8 +55,8 @@ def write_kit(kit: Kit, folder: Path, *, progress: Callable[[str], None] = lambd
         The folder is a file, holds something else, or cannot be written.  Nothing is
         changed then.
     """
-    try:
-        target = _target(folder)
+    target = check_folder(folder)
+    with _refusing(folder):
         target.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=target.parent, prefix=".scadgen-") as name:
             stage = Path(name) / "kit"
@@ -63,28 +67,40 @@ def write_kit(kit: Kit, folder: Path, *, progress: Callable[[str], None] = lambd
                 data = text if isinstance(text, bytes) else text.encode()
                 (stage / file).write_bytes(data)
             _swap(stage, target, Path(name) / "old")
+
+
+def check_folder(folder: Path) -> Path:
+    """The folder itself, if a kit may be put there.
+
+    Raises
+    ------
+    InputError
+        It is a file, holds something else, or cannot be looked at.
+    """
+    with _refusing(folder):
+        target = Path(os.path.realpath(folder))
+        if target.exists() and not target.is_dir():
+            msg = f"cannot write the kit to {str(folder)!r}: it is a file; name a folder, or a new one"
+            raise InputError(msg)
+        if target.is_dir() and any(target.iterdir()) and not (target / "kit.json").is_file():
+            msg = (
+                f"cannot write the kit to {str(folder)!r}: it holds other things; name a new folder"
+            )
+            raise InputError(msg)
+        return target
+
+
+@contextmanager
+def _refusing(folder: Path) -> Iterator[None]:
+    """Turn what the system says of a folder into one line."""
+    try:
+        yield
     except OSError as error:
         msg = (
             f"cannot write the kit to {str(folder)!r}: {error.strerror}; name a folder in a "
             "writable place with space left"
         )
         raise InputError(msg) from error
-
-
-def _target(folder: Path) -> Path:
-    """The folder itself, if a kit may be put there."""
-    target = Path(os.path.realpath(folder))
-    if target.exists() and not target.is_dir():
-        msg = f"cannot write the kit to {str(folder)!r}: it is a file; name a folder, or a new one"
-        raise InputError(msg)
-    if target.is_dir() and any(target.iterdir()) and not (target / "kit.json").is_file():
-        msg = f"cannot write the kit to {str(folder)!r}: it holds other things; name a new folder"
-        raise InputError(msg)
-    return target
-
-
-#: What the kit's Makefile and `scadgen render` write, which a new kit makes stale.
-_RENDERED = {"stl", "3mf", "png", "plates", ".build"}
 
 
 def _swap(stage: Path, target: Path, old: Path) -> None:

@@ -210,7 +210,7 @@ def _square_vertex(i: int, j: int, rows: int, columns: int) -> _Vertex:
 def _check(rows: int, columns: int, key: str) -> None:
     for name, value in (("rows", rows), ("columns", columns)):
         if not 1 <= value <= MOST_CELLS:
-            msg = f"{name} = {value}: must be a whole number from 1 to {MOST_CELLS}"
+            msg = f"{name} = {value!r}: must be a whole number from 1 to {MOST_CELLS}"
             raise InputError(msg)
     _check_key(key)
 

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.optimize import nnls
 
 from scadgen.interlock.contacts import Mesh
-from scadgen.interlock.field import Field, refined
+from scadgen.interlock.field import Field
 from scadgen.interlock.scene import Pose, Scene
 from scadgen.solid.affine import Floats, Ints
 
@@ -28,6 +28,9 @@ _BAND, _SIGHT, _RECEDE = 0.075, 0.25, 0.008
 
 #: Rows taken in at once, rounds of that, and how far one may be violated, in sizes.
 _ADD, _ROUNDS, _VIOLATED = 40, 6, 2e-4
+
+#: Sine of the angle up to which faces are one.
+_FLAT = 0.02
 
 #: Residual below which walls contradict each other.
 _SOLVABLE = 1e-9
@@ -171,12 +174,21 @@ def _field(mesh: Mesh, size: float) -> Field:
 
 
 def _points(points: Floats, triangles: Ints, spacing: float) -> Floats:
-    """Points all over a surface."""
-    corners, _ = refined(points, triangles, spacing)
-    found = corners.reshape(-1, 3)
-    cell = np.round((found - found.min(axis=0)) / (spacing / 4)).astype(np.int64)
-    count = cell.max(axis=0) + 1
-    _, first = np.unique(
-        (cell[:, 0] * count[1] + cell[:, 1]) * count[2] + cell[:, 2], return_index=True
-    )
-    return np.asarray(found[np.sort(first)])
+    """Where a solid can touch another one first: its vertices, and all along its ridges."""
+    tail, head = triangles.reshape(-1), np.roll(triangles, -1, axis=1).reshape(-1)
+    apex = np.roll(triangles, -2, axis=1).reshape(-1)
+    corners = points[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    # Half edges in the order of their edge, there and back.
+    there = np.lexsort((head, tail))
+    back = np.lexsort((tail, head))
+    arm = points[apex[back]] - points[tail[there]]
+    under = -(arm * np.repeat(normals, 3, axis=0)[there]).sum(axis=1)
+    ridge = (under > _FLAT * np.linalg.norm(arm, axis=1)) & (tail < head)[there]
+    a, b = points[tail[there[ridge]]], points[head[there[ridge]]]
+    count = np.ceil(np.linalg.norm(b - a, axis=1) / spacing).astype(np.int64)
+    which = np.repeat(np.arange(len(count)), count - 1)
+    number = np.arange(len(which)) - np.repeat(np.cumsum(count - 1) - count + 1, count - 1) + 1
+    between = a[which] + (number / count[which])[:, None] * (b - a)[which]
+    return np.concatenate([points[np.unique(triangles)], between])

@@ -243,12 +243,14 @@ class _Tree:
             found = self._step(pose, wanted)
             if found is None:
                 break
-            jams += found[1] < _JAMMED
+            jams = jams + 1 if found[1] < _JAMMED else 0
             if jams > _JAMS:
                 break
             pose = found[0]
             out = float(self.scene.apart(pose).max())
             if count % _KEEP == 0 or out > 0:
+                if not self.scene.free(pose):
+                    break
                 self.nodes.append(_Node(pose, node, self._score(pose, out)))
                 node = len(self.nodes) - 1
             if out > 0:

@@ -96,12 +96,17 @@ class Scene:
         poses = self.path([a, b]).dense(self._reach, self.step)
         # What is far from poses known to be clear is looked at first.
         order = np.concatenate([poses[4::8], poses[::8], poses[2::4], poses[1::2]])
-        if not self.keep:
-            return all(v <= self.rounding for v in common_volumes(order, self._body, self._rest))
-        return all(
-            self._body.transform(pose[:3]).min_gap(self._rest, self.keep) >= self.keep
-            for pose in order
-        )
+        return all(self._free(pose) for pose in order)
+
+    def free(self, pose: Pose) -> bool:
+        """Whether the body overlaps nothing at a pose, nor comes too near."""
+        return self._free(self.path([pose]).poses[0])
+
+    def _free(self, pose: Floats) -> bool:
+        body = self._body.transform(pose[:3])
+        if self.keep:
+            return bool(body.min_gap(self._rest, self.keep) >= self.keep)
+        return bool((body ^ self._rest).volume() <= self.rounding)
 
     def apart(self, pose: Pose) -> Floats:
         """Width of the slab between both along each of `directions`, below 0 where they

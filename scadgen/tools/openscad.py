@@ -14,6 +14,7 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import threading
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -34,6 +35,9 @@ _BAD = ("ERROR", "WARNING", "EXPORT-")
 _SUFFIXES = (".stl", ".3mf", ".off", ".amf", ".png", ".csg", ".echo")
 
 _NAME = re.compile(r"\$?[A-Za-z_][A-Za-z0-9_]*")
+
+#: Seconds between two looks at whether to stop.
+_TICK = 0.2
 
 #: Seconds that a process has between being asked to stop and being made to.
 _GRACE = 0.5
@@ -70,6 +74,7 @@ def render(
     *,
     timeout: float,
     options: Sequence[str] = (),
+    stop: threading.Event | None = None,
 ) -> Render:
     """Render a ``.scad`` file; the output appears whole or not at all.
 
@@ -85,6 +90,8 @@ def render(
         Seconds until OpenSCAD and all that it started are stopped.
     options
         Further options, such as `PICTURE` or ``--camera=...``.
+    stop
+        Once it is set, OpenSCAD is stopped before its time.
 
     Returns
     -------
@@ -108,7 +115,7 @@ def render(
         for name, value in settings.items():
             command += ["-D", f"{name}={define(value)}"]
         start = time.monotonic()
-        status, log = _run([*command, *options, str(scad)], timeout, folder, scad)
+        status, log = _run([*command, *options, str(scad)], timeout, folder, scad, stop)
         seconds = time.monotonic() - start
         _judge(scad, drawn, status, log)
         drawn.replace(output)
@@ -181,7 +188,7 @@ def _wrapper(output: Path) -> list[str]:
 
 
 def _run(
-    command: list[str], timeout: float, folder: str, scad: Path
+    command: list[str], timeout: float, folder: str, scad: Path, stop: threading.Event | None
 ) -> tuple[int, tuple[str, ...]]:
     """Run in a group of its own, so that the time limit ends all of it and nothing else."""
     with subprocess.Popen(
@@ -193,13 +200,28 @@ def _run(
         start_new_session=True,
     ) as process:
         try:
-            said, _ = process.communicate(timeout=timeout)
-        except subprocess.TimeoutExpired:
-            msg = f"openscad: {scad.name}: stopped after {timeout:g} s; give it more time"
-            raise ToolError(msg) from None
+            said = _output(process, timeout, scad, stop)
         finally:
             _end(process)
     return process.returncode, tuple(said.decode("utf-8", "replace").splitlines())
+
+
+def _output(
+    process: subprocess.Popen[bytes], timeout: float, scad: Path, stop: threading.Event | None
+) -> bytes:
+    """All that a program says until it ends, is told to stop, or takes too long."""
+    deadline = time.monotonic() + timeout
+    while True:
+        left = deadline - time.monotonic()
+        try:
+            return process.communicate(timeout=max(0.0, min(_TICK, left)))[0]
+        except subprocess.TimeoutExpired:
+            if stop is not None and stop.is_set():
+                msg = f"openscad: {scad.name}: stopped"
+                raise ToolError(msg) from None
+            if left <= 0:
+                msg = f"openscad: {scad.name}: stopped after {timeout:g} s; give it more time"
+                raise ToolError(msg) from None
 
 
 def _end(process: subprocess.Popen[bytes]) -> None:
