@@ -80,9 +80,7 @@ def check_folder(folder: Path) -> Path:
     with _refusing(folder):
         target = Path(os.path.realpath(folder))
         if target.exists() and not target.is_dir():
-            msg = (
-                f"cannot write the kit to {str(folder)!r}: it is a file; name a folder, or a new one"
-            )
+            msg = f"cannot write the kit to {str(folder)!r}: it is a file; name a folder"
             raise InputError(msg)
         if target.is_dir() and any(target.iterdir()) and not (target / "kit.json").is_file():
             msg = (
