@@ -19,6 +19,9 @@ __all__ = ["VIEWS", "part_renders", "view_renders"]
 #: What a kit's file draws beside single parts.
 VIEWS = ("plate", "joint", "joint_exploded", "frame", "coupon")
 
+#: A bed that the largest part of the largest kit fits on, in mm.
+_BED = (5000, 5000)
+
 #: How far OpenSCAD's vertices may be from ours, in mm, and its volumes, as a share.
 _VERTEX, _VOLUME = 1e-4, 1e-6
 
@@ -27,6 +30,7 @@ def part_renders(kit: Kit, scad: Path, folder: Path, timeout: float) -> Iterator
     """Whether OpenSCAD draws each part as we evaluate it."""
     for name, solid in kit.parts.items():
         output = folder / f"{name}.stl"
+        check = f"OpenSCAD draws {name}"
         log = render(scad, output, {"part": name}, timeout=timeout).log
         drawn, _ = read_stl(output)
         points = solid.points(kit.values)
@@ -36,19 +40,18 @@ def part_renders(kit: Kit, scad: Path, folder: Path, timeout: float) -> Iterator
         off = abs(check_stl(output) / volume(points, solid.triangles) - 1)
         good = far < _VERTEX and off < _VOLUME and not _constructive(log)
         figure = f"vertices {far:.1e} mm off, volume {off:.1e}"
-        yield Result(f"OpenSCAD draws {name}", bool(good), figure, f"{_VERTEX:g} mm, {_VOLUME:g}")
+        yield Result(check, bool(good), figure, f"{_VERTEX:g} mm, {_VOLUME:g}")
 
 
 def view_renders(scad: Path, folder: Path, timeout: float) -> Iterator[Result]:
     """Whether OpenSCAD draws plates and assemblies without any CSG."""
     for name in VIEWS:
         output = folder / f"{name}.stl"
-        done = render(scad, output, {"part": name}, timeout=timeout)
+        check = f"OpenSCAD draws {name}"
+        done = render(scad, output, {"part": name, "bed": _BED}, timeout=timeout)
         content = check_stl(output)
         good = np.isfinite(content) and not _constructive(done.log)
-        yield Result(
-            f"OpenSCAD draws {name}", bool(good), f"{done.seconds:.1f} s, watertight", "no CSG"
-        )
+        yield Result(check, bool(good), f"{done.seconds:.1f} s, watertight", "no CSG")
 
 
 def _constructive(log: tuple[str, ...]) -> bool:

@@ -6,22 +6,22 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from scadgen.check import geometry, locking, rendered
+from scadgen.check import files, geometry, locking, rendered
 from scadgen.check.result import Result
 from scadgen.kit.model import Kit
 
 __all__ = ["checks"]
 
 
-def checks(kit: Kit, scad: Path, timeout: float) -> Iterator[Result]:
+def checks(kit: Kit, source: Path, timeout: float) -> Iterator[Result]:
     """Run all checks, one result after the other.
 
     Parameters
     ----------
     kit
         The kit.
-    scad
-        Its OpenSCAD file.
+    source
+        Its folder.
     timeout
         Seconds that OpenSCAD may take for one drawing.
 
@@ -30,6 +30,8 @@ def checks(kit: Kit, scad: Path, timeout: float) -> Iterator[Result]:
     ToolError
         OpenSCAD is missing.
     """
+    scad = source / f"{kit.frame}.scad"
+    yield from files.unchanged(kit, source)
     yield geometry.same(kit)
     yield from geometry.closed(kit)
     yield from geometry.partition(kit)

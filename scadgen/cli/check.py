@@ -28,7 +28,7 @@ def check(folder: Path, timeout: float, as_json: bool) -> int:  # noqa: FBT001
     kit = load(folder)
     results = []
     with status(f"checking {folder}") as say:
-        for result in checks(kit, folder / f"{kit.frame}.scad", timeout):
+        for result in checks(kit, folder, timeout):
             results.append(result)
             say(f"checking {folder}: {result.check}")
     if as_json:

@@ -42,7 +42,9 @@ def export(
         raise InputError(msg)
     solid = kit.parts[part]
     points = solid.points(settings(kit, changes))
-    write_atomic(output, mesh_bytes(points, solid.triangles, kind or output.suffix.lstrip(".")))
+    write_atomic(
+        output, mesh_bytes(points, solid.triangles, (kind or output.suffix.lstrip(".")).lower())
+    )
     click.echo(f"{click.format_filename(output)}: {part}, {len(solid.triangles)} triangles")
 
 

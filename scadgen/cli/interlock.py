@@ -62,6 +62,7 @@ def interlock(
     from scadgen.interlock.verdict import Motion
     from scadgen.tools.read_mesh import read_parts
 
+    _check_pictures(files, gif, png)
     with status("reading") as say:
         parts = read_parts(files)
         names, meshes = list(parts), list(parts.values())
@@ -93,6 +94,19 @@ def interlock(
         _say(names, meshes, report, motion, motions, defaulted=hold is None)
     _draw(meshes, motion, gif, png)
     return 0 if motion is None else 1
+
+
+def _check_pictures(files: tuple[Path, ...], gif: Path | None, png: Path | None) -> None:
+    """Refuse pictures that would not be what their names say, or in the way of a part."""
+    for option, path, ending in (("--gif", gif, ".gif"), ("--png", png, ".png")):
+        if path is None:
+            continue
+        if path.suffix.lower() != ending or path.resolve() in {file.resolve() for file in files}:
+            msg = f"{option} {str(path)!r}: must be a file of its own that ends in {ending}"
+            raise InputError(msg)
+        if not path.resolve().parent.is_dir():
+            msg = f"{option} {str(path)!r}: must be in a folder that exists"
+            raise InputError(msg)
 
 
 def _held(names: list[str], meshes: list[Mesh], hold: str | None) -> list[int]:
@@ -132,6 +146,10 @@ def _touching(meshes: list[Mesh], tolerance: float | None) -> tuple[float, Conta
     from scadgen.interlock.contacts import default_tolerance, find_contacts
 
     near = default_tolerance(meshes) if tolerance is None else tolerance
+    size = max(float((points.max(axis=0) - points.min(axis=0)).max()) for points, _ in meshes)
+    if near > size:
+        msg = f"--tolerance {near:.4g}: must be at most the largest part's size, {size:.4g} mm"
+        raise InputError(msg)
     contacts = find_contacts(meshes, near)
     if not len(contacts):
         msg = (

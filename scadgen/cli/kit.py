@@ -107,7 +107,7 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
     from scadgen.kit.store import summary
 
     values = {name: value for name, value in lengths.items() if value is not None}
-    chosen = _weave(weave) if weave else None
+    chosen = _weave(weave) if weave is not None else None
     folder = output or Path(frame)
     request = Request(frame, key, rows, columns, detail, chosen, values, _command())
     check_folder(folder)
@@ -143,7 +143,7 @@ def _weave(name: str) -> Any:  # noqa: ANN401  imported late: the import takes a
     except OSError as error:
         msg = f"weave {name!r}: neither a file nor one of {', '.join(BUILT_IN)} ({error.strerror})"
         raise InputError(msg) from error
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         msg = f"weave {name!r}: not a JSON file ({error})"
         raise InputError(msg) from error
     return Weave.from_dict(entries, path.stem)

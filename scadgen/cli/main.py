@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import signal
 import sys
+import threading
 from collections.abc import Sequence
 
 import click
@@ -38,6 +40,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
     then stderr has one line that says what, the value, and what works.
     """
     words = sys.argv[1:] if arguments is None else list(arguments)
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         status = cli.main(words or ["--help"], prog_name="scadgen", standalone_mode=False)
     except click.UsageError as error:
@@ -47,6 +51,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         _fail(error.format_message())
     except ScadgenError as error:
         _fail(str(error))
+    except BrokenPipeError:
+        sys.exit(_INTERRUPTED)
     except (click.Abort, KeyboardInterrupt):
         click.echo("scadgen: interrupted", err=True)
         sys.exit(_INTERRUPTED)

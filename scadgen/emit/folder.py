@@ -15,7 +15,7 @@ from scadgen.emit.readme import readme
 from scadgen.emit.scad import parameter_sets, scad
 from scadgen.errors import InputError
 from scadgen.kit.model import Kit
-from scadgen.kit.store import dumps
+from scadgen.kit.store import FORMAT, dumps
 
 __all__ = ["check_folder", "files_of", "write_kit"]
 
@@ -82,12 +82,24 @@ def check_folder(folder: Path) -> Path:
         if target.exists() and not target.is_dir():
             msg = f"cannot write the kit to {str(folder)!r}: it is a file; name a folder"
             raise InputError(msg)
-        if target.is_dir() and any(target.iterdir()) and not (target / "kit.json").is_file():
+        if target == Path.cwd().resolve():
+            msg = f"cannot write the kit to {str(folder)!r}: it is the current folder; name another"
+            raise InputError(msg)
+        if target.is_dir() and any(target.iterdir()) and not _holds_kit(target):
             msg = (
                 f"cannot write the kit to {str(folder)!r}: it holds other things; name a new folder"
             )
             raise InputError(msg)
         return target
+
+
+def _holds_kit(folder: Path) -> bool:
+    """Whether a folder holds a kit, of whatever version."""
+    try:
+        start = (folder / "kit.json").read_bytes()[:200]
+    except FileNotFoundError:
+        return False
+    return f'"format": "{FORMAT}"'.encode() in start
 
 
 @contextmanager
@@ -97,8 +109,8 @@ def _refusing(folder: Path) -> Iterator[None]:
         yield
     except OSError as error:
         msg = (
-            f"cannot write the kit to {str(folder)!r}: {error.strerror}; name a folder in a "
-            "writable place with space left"
+            f"cannot write the kit to {str(folder)!r}: {error.strerror or error}; "
+            "name a folder in a writable place with space left"
         )
         raise InputError(msg) from error
 
@@ -119,6 +131,6 @@ def _swap(stage: Path, target: Path, old: Path) -> None:
     target.rename(old)
     try:
         stage.rename(target)
-    except OSError:
+    except BaseException:  # an interrupt as well: the old kit comes back
         old.rename(target)
         raise

@@ -86,7 +86,7 @@ def sections(kit: Kit) -> tuple[Section, ...]:
             live.setdefault(title, []).append(
                 Parameter(name, literal(kit.values[name]), _slider(kit, name, step), text)
             )
-    first = literal(max(0.02, round(kit.values["peg_clearance"] - 0.05, 2)))
+    first = literal(min(1.0, max(0.02, round(kit.values["peg_clearance"] - 0.05, 2))))
     cells = f"[1:1:{MOST_CELLS}]"
     return (
         Section("Part", (Parameter("part", '"joint"', widget, "What to draw"),)),

@@ -17,12 +17,13 @@ import numpy as np
 
 from scadgen import __version__
 from scadgen.errors import InputError, InvariantError, KitError
-from scadgen.frame.layout import LAYOUTS, bill
+from scadgen.frame.layout import LAYOUTS, bill, joint
 from scadgen.frame.placement import Placement
+from scadgen.kit.build import VALENCE
 from scadgen.kit.model import Kit
 from scadgen.kit.ranges import check_values
 from scadgen.solid.affine import PARAMETERS, AffineSolid, Linear, Range
-from scadgen.solid.mesh import edge_faults
+from scadgen.solid.mesh import edge_faults, volume
 
 __all__ = ["FORMAT", "VERSION", "dumps", "load", "loads", "summary"]
 
@@ -132,9 +133,33 @@ def loads(text: str) -> Kit:
         if missing := {*kit.values} - {r.parameter for r in kit.ranges}:
             _refuse(f"no range for {', '.join(sorted(missing))}")
         check_values(kit.ranges, kit.values)
-    except (InputError, InvariantError, ValueError, KeyError) as error:
+        _check_sense(kit, document)
+    except (InputError, InvariantError, ValueError, KeyError, TypeError, OverflowError) as error:
         _refuse(str(error))
     return kit
+
+
+def _check_sense(kit: Kit, document: dict[str, Any]) -> None:
+    """Refuse a kit whose tables and numbers do not belong together.
+
+    Raises
+    ------
+    ValueError
+        They do not: says which.
+    """
+    if (*kit.joint,) != joint(VALENCE[kit.frame], kit.key):
+        msg = "the joint is not the frame's"
+        raise ValueError(msg)
+    if document["bill"] != summary(kit)["bill"]:
+        msg = "the bill is not the frame's"
+        raise ValueError(msg)
+    for name, solid in kit.parts.items():
+        if not {*solid.coefficients} <= {*kit.values}:
+            msg = f"part {name}: moved by a parameter that the kit lacks"
+            raise ValueError(msg)
+        if not volume(solid.points(kit.values), solid.triangles) > 0:
+            msg = f"part {name}: inside out"
+            raise ValueError(msg)
 
 
 def _refuse(reason: str) -> NoReturn:
@@ -145,7 +170,7 @@ def _refuse(reason: str) -> NoReturn:
 def _parsed(text: str) -> dict[str, Any]:
     """The JSON object, of our format and version."""
     try:
-        document = json.loads(text, parse_constant=_no_constant)
+        document = json.loads(text, parse_constant=_no_constant, parse_float=_finite)
     except (ValueError, RecursionError) as error:
         _refuse(f"truncated or not JSON ({error})")
     if not isinstance(document, dict) or document.get("format") != FORMAT:
@@ -157,6 +182,14 @@ def _parsed(text: str) -> dict[str, Any]:
         )
         raise KitError(msg)
     return document
+
+
+def _finite(text: str) -> float:
+    value = float(text)
+    if not math.isfinite(value):
+        msg = f"{text} is not a finite number"
+        raise ValueError(msg)
+    return value
 
 
 def _no_constant(name: str) -> float:
@@ -180,8 +213,8 @@ def _kit(document: dict[str, Any]) -> Kit:
     return Kit(
         frame=document["frame"],
         key=document["key"],
-        rows=document["rows"],
-        columns=document["columns"],
+        rows=int(document["rows"]),
+        columns=int(document["columns"]),
         detail=document["detail"],
         weave=document["weave"],
         command=document["command"],
