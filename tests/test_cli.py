@@ -399,8 +399,8 @@ EDITS = {
         "NaN is not a number",
     ),
     "a value beyond all numbers": (
-        lambda text: text.replace('"edge_length": 60.0', '"not a finite number": 1e999'),
-        "edge_length",
+        lambda text: text.replace('"edge_length": 60.0', '"edge_length": 1e999'),
+        "not a finite number",
     ),
     "a part renamed": (lambda text: text.replace('"half": {', '"gear": {'), "not a sound kit"),
     "corners swapped": (
