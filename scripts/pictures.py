@@ -20,7 +20,7 @@ __all__ = ["main", "pictures"]
 _SIZE = (900, 675)
 
 #: How far joints are pulled apart, in sides.
-_APART = 1.2
+_APART = 3.5
 
 
 def pictures(frame: str) -> Iterator[tuple[str, bytes]]:

@@ -62,7 +62,7 @@ def test_preview_has_the_joint_twice_and_each_element_once():
     kit = stub_kit()
     # The stub's joint is one lump when whole, and five pieces when pulled apart.
     whole = blobs(pixels(joint_picture(kit, size=SMALL)))
-    apart = blobs(pixels(joint_picture(kit, 1.2, size=SMALL)))
+    apart = blobs(pixels(joint_picture(kit, 3.5, size=SMALL)))
     assert whole < apart
     assert blobs(pixels(preview(kit, size=(640, 480)))) == whole + apart + 2
 

@@ -338,8 +338,8 @@ def test_explode_moves_pieces_apart(hexagonal, tmp_path):
     together, apart = (
         np.ptp(read_stl(tmp_path / f"{n}.stl")[0], axis=0) for n in ("joint", "apart")
     )
-    # Connectors at 120 and 240 degrees go out by 1.5 sides of 10 mm each.
-    assert apart[1] - together[1] == pytest.approx(2 * 15 * math.sin(math.radians(60)), abs=1e-3)
+    # Connectors at 120 and 240 degrees go out by 3.5 sides of 10 mm each.
+    assert apart[1] - together[1] == pytest.approx(2 * 35 * math.sin(math.radians(60)), abs=1e-3)
 
 
 @pytest.mark.parametrize("part", ["joint", "frame"])

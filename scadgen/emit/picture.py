@@ -52,7 +52,7 @@ _VIEW = (-90.0, 48.0)
 #: Turn of a joint, and of a part alone, so that its edge is seen a little from its end.
 _JOINT_TURN, _PART_TURN = 18.0, 14.0
 #: How far a joint is pulled apart in the preview, in sides, and the furthest it may be.
-_APART, _MOST_APART = 1.2, 100.0
+_APART, _MOST_APART = 3.5, 100.0
 #: Tube that a part is shown with, in sides over the shortest; longer ones would dwarf the joints.
 _SHOWN = 3.5
 #: Room between two items, in sides.

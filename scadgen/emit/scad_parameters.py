@@ -121,7 +121,7 @@ def sections(kit: Kit) -> tuple[Section, ...]:
                     "explode",
                     "0",
                     "[0:0.1:4]",
-                    "How far the frame is pulled apart, in sides (the joint: 1.5 when 0)",
+                    "How far the frame is pulled apart, in sides (the joint: 3.5 when 0)",
                 ),
             ),
         ),
