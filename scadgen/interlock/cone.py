@@ -1,0 +1,197 @@
+"""Which motions the walls near a body allow, at one pose: a cone, and what is nearest in it.
+
+Points of either surface are held against the other's distance field.  Each one near has a
+row as contacts have: how fast it recedes under a translation and a rotation times the size.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.optimize import nnls
+
+from scadgen.interlock.contacts import Mesh
+from scadgen.interlock.field import Field
+from scadgen.interlock.scene import Pose, Scene
+from scadgen.solid.affine import Floats, Ints
+
+__all__ = ["Walls", "nearest"]
+
+#: Distance of the grids' nodes and of the points, in sizes of the body.
+_CELL, _SPACING = 0.035, 0.07
+
+#: Nodes of a grid at most; beyond, its cells are wider.
+_NODES = 1.5e6
+
+#: How near a point has to be to count, how far points are kept in sight, and how fast one
+#: that is too near is made to recede, in sizes.
+_BAND, _SIGHT, _RECEDE = 0.075, 0.25, 0.008
+
+#: Rows taken in at once, rounds of that, and how far one may be violated, in sizes.
+_ADD, _ROUNDS, _VIOLATED = 40, 6, 2e-4
+
+#: Sine of the angle up to which faces are one.
+_FLAT = 0.02
+
+#: Residual below which walls contradict each other.
+_SOLVABLE = 1e-9
+
+
+class Walls:
+    """Distances between the surfaces of a body and of what is around it.
+
+    Parameters
+    ----------
+    scene
+        The body among the others.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.size = scene.size
+        self._points = _points(*scene.body, _SPACING * self.size) - scene.middle
+        self._others = _points(*scene.rest, _SPACING * self.size)
+        self._own = _field((scene.body[0] - scene.middle, scene.body[1]), self.size)
+        self._around = _field(scene.rest, self.size)
+        self._seen: tuple[Ints, Ints] = (np.arange(0), np.arange(0))
+        self._from: Pose | None = None
+        self._reach = float(np.linalg.norm(self._points, axis=1).max())
+
+    def gap(self, pose: Pose) -> float:
+        """Smallest distance, in mm: about; at most `_SIGHT`."""
+        values, others = self._values(pose)[:2]
+        return float(min(values.min(initial=self._far), others.min(initial=self._far)))
+
+    def rows(self, pose: Pose, gap: float) -> tuple[Floats, Floats]:
+        """What the walls demand of a step.
+
+        Parameters
+        ----------
+        pose
+            Where the body is.
+        gap
+            Distance to keep, in mm.
+
+        Returns
+        -------
+        rows, least
+            ``(k, 6)`` and ``(k,) float``: rows @ step >= least.
+        """
+        values, others, points, back = self._values(pose)
+        near = values < _BAND * self.size
+        arm, normal = points[near] - pose.centre, self._around.normal(points[near])
+        blocks = [np.concatenate([normal, np.cross(arm, normal) / self.size], axis=1)]
+        close = others < _BAND * self.size
+        arm, normal = back[close] @ pose.turn.T, -self._own.normal(back[close]) @ pose.turn.T
+        blocks.append(np.concatenate([normal, np.cross(arm, normal) / self.size], axis=1))
+        least = gap - np.concatenate([values[near], others[close]])
+        return np.concatenate(blocks), np.minimum(least, _RECEDE * self.size)
+
+    @property
+    def _far(self) -> float:
+        return _SIGHT * self.size / 2
+
+    def _values(self, pose: Pose) -> tuple[Floats, Floats, Floats, Floats]:
+        """Distances of the body's and the others' points in sight, and the points themselves.
+
+        The body's are given in space, the others' as the body sees them.
+        """
+        if self._from is None or self._moved(pose) > self._far:
+            points, back = self._placed(pose, slice(None), slice(None))
+            sight = _SIGHT * self.size
+            self._seen = (
+                np.flatnonzero(self._around.value(points) < sight),
+                np.flatnonzero(self._own.value(back) < sight),
+            )
+            self._from = pose
+        points, back = self._placed(pose, *self._seen)
+        return self._around.value(points), self._own.value(back), points, back
+
+    def _placed(self, pose: Pose, own: Ints | slice, others: Ints | slice) -> tuple[Floats, Floats]:
+        points = self._points[own] @ pose.turn.T + pose.centre
+        return points, (self._others[others] - pose.centre) @ pose.turn
+
+    def _moved(self, pose: Pose) -> float:
+        """How far any point has moved at most since those in sight were chosen."""
+        if self._from is None:
+            return np.inf
+        turn = np.linalg.norm(pose.turn - self._from.turn) / np.sqrt(2)
+        return float(np.linalg.norm(pose.centre - self._from.centre) + turn * self._reach)
+
+
+def nearest(wanted: Floats, rows: Floats, least: Floats, size: float) -> Floats:
+    """The step nearest to a wanted one that the walls allow.
+
+    Parameters
+    ----------
+    wanted
+        ``(6,) float``: a translation, and a rotation times `size`.
+    rows, least
+        ``(k, 6)`` and ``(k,) float``: rows @ step >= least is to hold.
+    size
+        Of the body, in mm.
+
+    Returns
+    -------
+    step
+        ``(6,) float``; zero where nothing is allowed.
+    """
+    step, chosen = wanted, np.arange(0)
+    for _ in range(_ROUNDS):
+        short = least - rows @ step
+        short[chosen] = 0
+        violated = np.flatnonzero(short > _VIOLATED * size)
+        if not len(violated):
+            break
+        worst = violated[np.argsort(-short[violated], kind="stable")[:_ADD]]
+        chosen = np.concatenate([chosen, worst])
+        lack = (least - rows @ wanted)[chosen]
+        found = _shortest(rows[chosen], lack)
+        if found is None:  # walls on both sides are too near: stay as near as now
+            found = _shortest(rows[chosen], np.minimum(least, 0)[chosen] - rows[chosen] @ wanted)
+        if found is None:
+            return np.zeros(6)
+        step = wanted + found
+    return step
+
+
+def _shortest(rows: Floats, least: Floats) -> Floats | None:
+    """The shortest x with rows @ x >= least, by its dual."""
+    scale = float(least.max(initial=0.0))
+    if not scale > 0:
+        return np.zeros(6)
+    system = np.vstack([rows.T, least / scale])
+    try:
+        forces, _ = nnls(system, np.append(np.zeros(6), 1.0))
+    except RuntimeError:  # it does not settle
+        return None
+    residual = system @ forces - np.append(np.zeros(6), 1.0)
+    if -residual[6] < _SOLVABLE:
+        return None
+    return np.asarray(-residual[:6] / residual[6] * scale)
+
+
+def _field(mesh: Mesh, size: float) -> Field:
+    """A mesh's field, its cells as fine as its box allows."""
+    box = np.ptp(mesh[0], axis=0)
+    cell = max(_CELL * size, float((box.prod() / _NODES) ** (1 / 3)))
+    return Field(*mesh, cell)
+
+
+def _points(points: Floats, triangles: Ints, spacing: float) -> Floats:
+    """Where a solid can touch another one first: its vertices, and all along its ridges."""
+    tail, head = triangles.reshape(-1), np.roll(triangles, -1, axis=1).reshape(-1)
+    apex = np.roll(triangles, -2, axis=1).reshape(-1)
+    corners = points[triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    # Half edges in the order of their edge, there and back.
+    there = np.lexsort((head, tail))
+    back = np.lexsort((tail, head))
+    arm = points[apex[back]] - points[tail[there]]
+    under = -(arm * np.repeat(normals, 3, axis=0)[there]).sum(axis=1)
+    ridge = (under > _FLAT * np.linalg.norm(arm, axis=1)) & (tail < head)[there]
+    a, b = points[tail[there[ridge]]], points[head[there[ridge]]]
+    count = np.ceil(np.linalg.norm(b - a, axis=1) / spacing).astype(np.int64)
+    which = np.repeat(np.arange(len(count)), count - 1)
+    number = np.arange(len(which)) - np.repeat(np.cumsum(count - 1) - count + 1, count - 1) + 1
+    between = a[which] + (number / count[which])[:, None] * (b - a)[which]
+    return np.concatenate([points[np.unique(triangles)], between])
