@@ -1,0 +1,237 @@
+"""Which joints and which edges of a frame are the same part.
+
+Two joints are the same if one can be turned onto the other.  Two edges are the same if they
+are equally long and end in the same places of the same joints, one way round or the other.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scadgen.errors import InputError
+from scadgen.frame.congruence import JointClass, congruent_joints
+from scadgen.frame.graph import Frame
+from scadgen.frame.planarity import where
+from scadgen.solid.affine import Floats, Ints
+
+__all__ = ["EdgeClass", "Sameness", "Snapped", "group_values", "sameness", "snap"]
+
+#: Joints are the same within this, in radians: what three decimals do to edges of 10 mm.
+_ANGLE = 1e-4
+
+#: Lengths are the same within this, in mm: what printing does not resolve.
+_LENGTH = 0.01
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class EdgeClass:
+    """Edges that are the same.
+
+    Parameters
+    ----------
+    length
+        In mm.
+    joints
+        Class of the joint at its first and second end.
+    slots
+        Its slot in that class there, the lowest of those that are alike.
+    edges
+        ``(n,) int``: which edges, ascending.
+    """
+
+    length: float
+    joints: tuple[int, int]
+    slots: tuple[int, int]
+    edges: Ints
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sameness:
+    """What of a frame is the same.
+
+    Parameters
+    ----------
+    joints
+        Classes of joints, by number of edges, then by gaps.
+    joint_of
+        ``(n,) int``: class of each vertex.
+    turn
+        ``(n,) float``: the angle that maps the class's directions to the vertex's, from
+        0 to before 2 pi / symmetry; less than 0 by the tolerance at most.
+    shift
+        ``(n,) int``: edge k of the class becomes slot ``(k + shift) % degree`` of the vertex.
+    edges
+        Classes of edges, by joints, slots and length.
+    edge_of
+        ``(m,) int``: class of each edge.
+    swapped
+        ``(m,) bool``: whether the first end of the class is at the edge's second vertex.
+    angle_errors
+        ``(n,) float``: largest difference of a direction from its class's, in radians.
+    length_errors
+        ``(m,) float``: difference of a length from its class's, in mm.
+    """
+
+    joints: tuple[JointClass, ...]
+    joint_of: Ints
+    turn: Floats
+    shift: Ints
+    edges: tuple[EdgeClass, ...]
+    edge_of: Ints
+    swapped: NDArray[np.bool_]
+    angle_errors: Floats
+    length_errors: Floats
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Snapped:
+    """What is the same after angles and lengths are rounded together, and what that costs.
+
+    Parameters
+    ----------
+    same
+        The classes.
+    angle_error, length_error
+        Largest change of a direction, in radians, and of a length, in mm.
+    miss
+        Largest distance, in mm, between where an edge's part would end and its other vertex.
+    notes
+        The same in words, with the places.
+    """
+
+    same: Sameness
+    angle_error: float
+    length_error: float
+    miss: float
+    notes: tuple[str, ...]
+
+
+def sameness(
+    frame: Frame, angle_tolerance: float = _ANGLE, length_tolerance: float = _LENGTH
+) -> Sameness:
+    """Group joints by congruence and edges by what they connect.
+
+    Parameters
+    ----------
+    frame
+        The frame.
+    angle_tolerance
+        In radians: a joint is put to a class if one turn brings every direction within this
+        of the class's first joint.
+    length_tolerance
+        In mm: a length is put to a class if it is within this of the class's.
+
+    Raises
+    ------
+    InputError
+        A tolerance that is not positive, or angles so coarse that two edges would be one.
+    """
+    smallest = float(frame.ends.gap.min())
+    if not 0 < angle_tolerance < smallest / 4:
+        msg = (
+            f"angle_tolerance = {angle_tolerance!r}: must be positive and under "
+            f"{smallest / 4:.4g}, a quarter of the smallest gap"
+        )
+        raise InputError(msg)
+    joints, (joint_of, shift), (turn, errors) = congruent_joints(frame, angle_tolerance)
+    lengths, length_of = group_values(frame.lengths, length_tolerance)
+    period = np.array([j.period for j in joints])
+    kind = joint_of[frame.edges]
+    slot = (frame.slots - shift[frame.edges]) % frame.degree[frame.edges] % period[kind]
+    swapped = (kind[:, 0] > kind[:, 1]) | ((kind[:, 0] == kind[:, 1]) & (slot[:, 0] > slot[:, 1]))
+    kind[swapped], slot[swapped] = kind[swapped, ::-1], slot[swapped, ::-1]
+    keys, edge_of = np.unique(np.column_stack([kind, slot, length_of]), axis=0, return_inverse=True)
+    members = _members(edge_of.ravel(), len(keys))
+    edges = tuple(
+        EdgeClass(float(lengths[n]), (int(a), int(b)), (int(p), int(q)), which)
+        for (a, b, p, q, n), which in zip(keys, members, strict=True)
+    )
+    off = np.abs(frame.lengths - lengths[length_of])
+    return Sameness(joints, joint_of, turn, shift, edges, edge_of.ravel(), swapped, errors, off)
+
+
+def snap(frame: Frame, angle: float, length: float) -> Snapped:
+    """Round angles and lengths together, so that fewer kinds of parts are needed.
+
+    The frame stays as it is; parts are made for the classes, and the joints' play has to
+    take up what is said here.
+
+    Parameters
+    ----------
+    frame
+        The frame.
+    angle
+        How far a direction may be off, in radians.
+    length
+        How far a length may be off, in mm.
+
+    Raises
+    ------
+    InputError
+        As `sameness`.
+    """
+    same = sameness(frame, angle, length)
+    aside = frame.lengths[:, None] * np.sin(same.angle_errors[frame.edges])
+    miss = np.hypot(aside.max(axis=1), same.length_errors)
+    vertex, edge = int(same.angle_errors.argmax()), int(same.length_errors.argmax())
+    middle = frame.vertices[frame.edges].mean(axis=1)
+    worst = math.degrees(same.angle_errors[vertex])
+    notes = (
+        f"{len(same.joints)} kinds of joints, {len(same.edges)} kinds of edges",
+        f"angles change by up to {worst:.3g} degrees, at {where(frame.vertices[vertex])}",
+        f"lengths change by up to {same.length_errors[edge]:.3g} mm, at {where(middle[edge])}",
+        f"ends miss by up to {miss.max():.3g} mm, at {where(middle[miss.argmax()])}",
+    )
+    return Snapped(
+        same,
+        float(same.angle_errors.max()),
+        float(same.length_errors.max()),
+        float(miss.max()),
+        notes,
+    )
+
+
+def group_values(values: Floats, tolerance: float) -> tuple[Floats, Ints]:
+    """Round numbers together with as few results as can be.
+
+    Parameters
+    ----------
+    values
+        ``(n,) float``.
+    tolerance
+        How far a number may be moved.
+
+    Returns
+    -------
+    results
+        ``(k,) float``, ascending.
+    group
+        ``(n,) int``: the result of each number.
+
+    Raises
+    ------
+    InputError
+        A tolerance that is not positive.
+    """
+    if not tolerance > 0:
+        msg = f"tolerance = {tolerance!r}: must be positive"
+        raise InputError(msg)
+    ascending = np.sort(values)
+    starts = [0]
+    while starts[-1] < len(values):
+        reach = ascending[starts[-1]] + 2 * tolerance
+        starts.append(int(np.searchsorted(ascending, reach, side="right")))
+    *starts, end = starts
+    stops = np.array([*starts[1:], end]) - 1
+    results = (ascending[starts] + ascending[stops]) / 2
+    return results, np.searchsorted(ascending[starts], values, side="right") - 1
+
+
+def _members(group: Ints, count: int) -> list[Ints]:
+    """Which elements are in each group."""
+    order = np.argsort(group, kind="stable")
+    return np.split(order, np.cumsum(np.bincount(group, minlength=count))[:-1])

@@ -1,0 +1,201 @@
+"""What readers share: how to read, what was read, and what no frame may be."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from scadgen.errors import InputError
+from scadgen.frame.graph import Frame, make_frame
+from scadgen.frame.planarity import where
+from scadgen.frame.repair import MOST_SEGMENTS, TOLERANCE, repair
+from scadgen.solid.affine import Floats
+
+__all__ = ["Read", "Reading", "checked_scale", "from_graph", "from_segments", "load", "unknown"]
+
+#: A file has at most this many bytes for each segment that is allowed: a DXF line with all
+#: its attributes has some 300.
+_BYTES_EACH = 512
+
+#: Shortest names first in a list; more than this many kinds are not listed.
+_KINDS_SHOWN = 8
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reading:
+    """How to read a drawing.
+
+    Parameters
+    ----------
+    scale
+        Millimetres per unit, instead of what the file says.
+    tolerance
+        Ends nearer than this are one, in mm; drawings only.  Meshes may be this far from
+        plane.
+    flatten
+        Curves become segments that are at most this far off, in mm.
+    split
+        Whether segments that cross get a vertex there; drawings only.
+    skip_unknown
+        Whether to leave out what cannot be part of a frame.
+    components
+        Whether the frame may have several parts that are not connected.
+    shortest
+        Edges must be at least this long, in mm.
+    most
+        Vertices, segments or edges, at most.
+    """
+
+    scale: float | None = None
+    tolerance: float = TOLERANCE
+    flatten: float = 0.05
+    split: bool = True
+    skip_unknown: bool = False
+    components: bool = False
+    shortest: float = 0.0
+    most: int = MOST_SEGMENTS
+
+    def __post_init__(self) -> None:
+        """Refuse numbers that make no sense."""
+        for name in ("tolerance", "flatten"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 1e-6):
+                msg = f"{name} = {value!r}: must be at least 1e-06 mm"
+                raise InputError(msg)
+        if self.scale is not None and not (math.isfinite(self.scale) and self.scale > 0):
+            msg = f"scale = {self.scale!r}: must be a positive number of mm per unit"
+            raise InputError(msg)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Read:
+    """What was read.
+
+    Parameters
+    ----------
+    frame
+        The frame.
+    notes
+        What was changed or left out on the way, one line each.
+    """
+
+    frame: Frame
+    notes: tuple[str, ...] = ()
+
+
+def load(path: Path, reading: Reading) -> bytes:
+    """The bytes of a file.
+
+    Raises
+    ------
+    InputError
+        It cannot be read, is empty, or longer than anything of the allowed size would be.
+    """
+    limit = _BYTES_EACH * reading.most
+    try:
+        size = path.stat().st_size
+        if size > limit:
+            msg = f"{size} bytes: at most {limit} for {reading.most} segments; allow more of them"
+            raise InputError(msg)
+        data = path.read_bytes()
+    except OSError as error:
+        msg = f"cannot be read: {error.strerror or error}"
+        raise InputError(msg) from None
+    if not data.strip():
+        msg = "is empty"
+        raise InputError(msg)
+    return data
+
+
+def from_graph(name: str, vertices: ArrayLike, edges: ArrayLike, reading: Reading) -> Read:
+    """A frame whose vertices and edges the file lists; nothing is repaired.
+
+    Raises
+    ------
+    InputError
+        It is no frame, too large, in several parts, or has edges that are too short.
+    """
+    frame = make_frame(name, vertices, edges)
+    _check(frame, reading)
+    return Read(frame)
+
+
+def from_segments(
+    name: str, segments: Sequence[Floats], reading: Reading, notes: Sequence[str] = ()
+) -> Read:
+    """A frame from drawn segments, each ``(k, 2, 2) float``, in mm.
+
+    Raises
+    ------
+    InputError
+        There are none; they make no frame, or one that is too large, in several parts, or has
+        edges that are too short.
+    """
+    if not any(map(len, segments)):
+        msg = "there is nothing in it that could be an edge"
+        raise InputError(msg)
+    joined = np.concatenate(segments)
+    repaired = repair(name, joined, reading.tolerance, split=reading.split, most=reading.most)
+    _check(repaired.frame, reading)
+    return Read(repaired.frame, (*notes, *repaired.notes))
+
+
+def unknown(kinds: Counter[str], reading: Reading) -> tuple[str, ...]:
+    """Note what cannot be part of a frame, or refuse it.
+
+    Raises
+    ------
+    InputError
+        There is some, and it is not to be skipped.
+    """
+    if not kinds:
+        return ()
+    shown = [f"{kinds[kind]} {_printable(kind)}" for kind in sorted(kinds)[:_KINDS_SHOWN]]
+    if len(kinds) > _KINDS_SHOWN:
+        shown.append(f"{len(kinds) - _KINDS_SHOWN} more kinds")
+    if not reading.skip_unknown:
+        msg = f"{', '.join(shown)}: cannot be part of a frame; ask to skip what is unknown"
+        raise InputError(msg)
+    return (f"left out: {', '.join(shown)}",)
+
+
+def checked_scale(reading: Reading, stated: float) -> float:
+    """Millimetres per unit: what the caller says, else what the file says."""
+    return stated if reading.scale is None else reading.scale
+
+
+def _printable(kind: str) -> str:
+    """A word from a file, on one line and not too long."""
+    return "".join(c if c.isprintable() else "?" for c in kind[:30])
+
+
+def _check(frame: Frame, reading: Reading) -> None:
+    if len(frame.edges) > reading.most:
+        msg = f"{len(frame.edges)} edges: at most {reading.most}, unless you allow more"
+        raise InputError(msg)
+    parts = int(frame.components.max()) + 1
+    if parts > 1 and not reading.components:
+        other = int(frame.components.argmax())
+        first = int((frame.components == frame.components[other]).argmax())
+        msg = (
+            f"{parts} parts that are not connected, one with {where(frame.vertices[0])}, one with "
+            f"{where(frame.vertices[first])}; connect them, or ask for components"
+        )
+        raise InputError(msg)
+    short = np.flatnonzero(frame.lengths < reading.shortest)
+    if len(short):
+        worst = int(frame.lengths.argmin())
+        ends = " to ".join(where(frame.vertices[v]) for v in frame.edges[worst])
+        more = f" (and {len(short) - 1} more)" if len(short) > 1 else ""
+        msg = (
+            f"edge from {ends} is {frame.lengths[worst]:.4g} mm long: at least "
+            f"{reading.shortest:g} mm, {reading.shortest - frame.lengths[worst]:.4g} mm are "
+            f"missing{more}"
+        )
+        raise InputError(msg)

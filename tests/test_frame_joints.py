@@ -1,0 +1,109 @@
+"""Where joints can stand, against the joint's own lattice."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from scadgen.errors import GeometryError, InputError
+from scadgen.frame.catalogue import named
+from scadgen.frame.graph import make_frame
+from scadgen.frame.joints import (
+    check_lengths,
+    check_ring_ratios,
+    least_gap,
+    least_ring_ratio,
+    least_scale,
+    ring_ratios,
+    tube_start,
+)
+from scadgen.joint.lattice import make_lattice
+
+
+def test_tubes_that_touch_by_hand():
+    # At a right angle the corners of two unit squares meet where X0 = 1/2.
+    assert least_ring_ratio([math.pi / 2] * 4) == pytest.approx(math.sqrt(0.5) - 0.5)
+    # At 60 degrees X0 = 1 / (2 tan 30) = 0.866, and R = 1/2.
+    assert least_ring_ratio([math.pi / 3] * 6) == pytest.approx(0.5)
+
+
+@given(st.lists(st.floats(0.35, 2.0), min_size=2, max_size=8))
+def test_the_least_ratio_is_where_the_lattice_begins_to_work(parts):
+    gaps = np.array(parts) / sum(parts) * 2 * np.pi
+    edges = np.cumsum(gaps) - gaps[0]
+    ratio = least_ring_ratio(gaps)
+    if ratio > 0.6:
+        make_lattice(edges, ratio + 1e-6, 5)
+        with pytest.raises(GeometryError, match="two tubes overlap"):
+            make_lattice(edges, ratio - 1e-6, 5)
+
+
+@given(st.floats(0.1, 3.0), st.floats(0.0, 1.0))
+def test_spacing_is_the_distance_of_the_corners(gap, spacing):
+    ratio = least_ring_ratio([gap, 2 * math.pi - gap], spacing)
+    start = float(tube_start(ratio))
+    corner = start + 0.5j
+    other = (start - 0.5j) * complex(math.cos(gap), math.sin(gap))
+    if start > 1e-6:
+        assert abs(other - corner) == pytest.approx(spacing, abs=1e-9)
+        assert least_gap(ratio, spacing) == pytest.approx(gap)
+
+
+def test_a_narrower_gap_needs_a_larger_ring():
+    ratios = [least_ring_ratio([gap, 2 * math.pi - gap]) for gap in np.linspace(0.1, 3.1, 30)]
+    assert (np.diff(ratios) < 0).all()
+
+
+def test_ratios_of_a_frame_are_those_of_its_vertices():
+    frame = named("3.4.6.4")
+    assert ring_ratios(frame, 0.1) == pytest.approx(
+        [least_ring_ratio(frame.gaps(v), 0.1) for v in range(len(frame.vertices))]
+    )
+
+
+def test_a_vertex_that_is_too_narrow_is_named():
+    # A thin triangle, 10 degrees at (0, 0): R > 1 / (2 sin 5) - 1/2 = 5.237.
+    far = 100 * math.tan(math.radians(5))
+    frame = make_frame("thin", [[0, 0], [100, far], [100, -far]], [[0, 1], [1, 2], [2, 0]])
+    check_ring_ratios(frame, 5.24)
+    with pytest.raises(GeometryError) as error:
+        check_ring_ratios(frame, 2.0)
+    # 2 asin(1 / (2 (2 + 1/2))) = 23.07 degrees.
+    assert str(error.value) == (
+        "vertex 1 at (0, 0): edges 10 degrees apart need a ring ratio over 5.237; "
+        "at most 2 works, for 23.07 degrees and more"
+    )
+
+
+def test_a_loose_end_is_named():
+    frame = make_frame("path", [[0, 0], [9, 0], [9, 9]], [[0, 1], [1, 2]])
+    with pytest.raises(GeometryError, match=r"vertex 0 at \(0, 0\) has one edge \(and 1 more\)"):
+        check_ring_ratios(frame, 2.0)
+
+
+def test_an_edge_that_is_too_short_is_named_with_what_is_missing():
+    # R = 1.5: X0 = sqrt(3.75) = 1.936; two of them and a side of rest are 4.873 sides.
+    frame = named("rectangular", width=60.0, height=40.0, rows=1, columns=1)
+    check_lengths(frame, 8.2, 1.5, rest=1.0)
+    with pytest.raises(GeometryError) as error:
+        check_lengths(frame, 10.0, 1.5, rest=1.0)
+    assert str(error.value) == (
+        "edge 1 from (0, 0) to (0, 40), 40 mm long, is 8.73 mm too short for its two joints "
+        "(and 1 more); a side of 8.208 mm or a frame 1.219 times as large would do"
+    )
+    assert least_scale(frame, 10.0, 1.5, rest=1.0) == pytest.approx(48.7298 / 40)
+
+
+def test_each_vertex_may_have_a_ring_of_its_own():
+    frame = named("strip", triangles=1, edge_length=30.0)
+    check_lengths(frame, 10.0, [0.9, 0.9, 0.9])
+    with pytest.raises(GeometryError, match="too short"):
+        check_lengths(frame, 10.0, [0.9, 0.9, 1.9])
+
+
+@pytest.mark.parametrize("side", [0, -1, math.nan, math.inf])
+def test_a_side_is_a_length(side):
+    with pytest.raises(InputError, match="side = "):
+        check_lengths(named("square"), side, 1.5)

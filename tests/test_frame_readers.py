@@ -1,0 +1,247 @@
+"""Frames from JSON and meshes, and what every reader refuses."""
+
+import json
+import math
+import re
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from scadgen.errors import InputError
+from scadgen.frame.catalogue import NAMES, named
+from scadgen.frame.graph import make_frame
+from scadgen.readers.json_frame import dumps
+from scadgen.readers.read import READERS, read
+from scadgen.readers.reading import Reading
+
+TRIANGLE = {"vertices": [[0, 0], [30, 0], [0, 40]], "edges": [[0, 1], [1, 2], [2, 0]]}
+CUBE_TOP = "v 0 0 5\nv 2 0 5\nv 2 2 5\nv 0 2 5\n"
+
+
+def written(folder, name, content):
+    path = folder / name
+    if isinstance(content, bytes):
+        path.write_bytes(content)
+    else:
+        path.write_text(content if isinstance(content, str) else json.dumps(content))
+    return path
+
+
+def refusal(path, reading=None):
+    with pytest.raises(InputError) as error:
+        read(path, reading)
+    said = str(error.value)
+    assert "\n" not in said
+    assert said.startswith(f"{path}: ")
+    assert len(said) - len(str(path)) < 300
+    return said
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_frame_written_as_json_and_read_back_is_the_same(tmp_path, name):
+    frame = named(name)
+    assert read(written(tmp_path, "any.json", dumps(frame))).frame == frame
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=25)
+@given(st.lists(st.tuples(*[st.floats(-1e6, 1e6)] * 2), min_size=2, max_size=8))
+def test_any_path_written_and_read_back_is_the_same(tmp_path, points):
+    try:
+        frame = make_frame("path", points, [[k, k + 1] for k in range(len(points) - 1)])
+    except InputError:
+        return
+    assert read(written(tmp_path, "path.json", dumps(frame))).frame == frame
+
+
+def test_json_may_have_a_name_and_a_unit(tmp_path):
+    frame = read(written(tmp_path, "a.json", TRIANGLE)).frame
+    assert frame.name == "a"
+    assert sorted(frame.lengths) == pytest.approx([30, 40, 50])
+    inches = read(written(tmp_path, "a.json", TRIANGLE | {"unit": "in", "name": "b c"})).frame
+    assert inches.name == "b c"
+    assert sorted(inches.lengths) == pytest.approx([762, 1016, 1270])
+    scaled = read(written(tmp_path, "a.json", TRIANGLE | {"unit": "in"}), Reading(scale=2.0))
+    assert sorted(scaled.frame.lengths) == pytest.approx([60, 80, 100])
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"edges": [[0, 1], [1, 1]]}, r"edge 1 goes from vertex 1 at \(30, 0\) to itself"),
+        ({"vertices": [[0, 0], [0, 0], [0, 40]]}, r"edge 0 from vertex 0 to 1 has no length"),
+        ({"edges": [[0, 1], [1, 0]]}, r"edge 1 = \[1, 0\]: the same as edge 0"),
+        ({"edges": [[0, 7]]}, "vertices go from 0 to 2"),
+        ({"edges": [[0, 1.5]]}, r"edges\[0\] = \[0, 1.5\]: must be two whole numbers"),
+        ({"edges": [[False, True]]}, r"edges\[0\] = \[false, true\]: must be two whole"),
+        ({"edges": [[0, 1, 2]]}, r"edges\[0\] = \[0, 1, 2\]: must be two"),
+        ({"edges": "all"}, "edges: must be a list of pairs"),
+        ({"edges": []}, "at least one edge"),
+        ({"edges": [[0, 10**30]]}, r"edge"),
+        ({"vertices": [[0, 10**400], [1, 1], [2, 2]]}, r"vertices\[0\]"),
+        ({"vertices": [["0", 0], [1, 1], [2, 2]]}, r'vertices\[0\] = \["0", 0\]: must be two num'),
+        ({"vertices": [None]}, r"vertices\[0\] = null: must be two numbers"),
+        ({"vertices": [[0, 1e999], [1, 1], [2, 2]]}, "Infinity is no number"),
+        ({"unit": "furlong"}, "unit 'furlong': must be one of mm, cm, m, in"),
+        ({"unit": ["mm"]}, "unit .*: must be one of mm"),
+        ({"name": "../../etc"}, "name '../../etc': must be letters"),
+        ({"faces": []}, "unknown faces; known are edges, name, unit, vertices"),
+        ({"vertices": [[0, 0], [30, 0], [0, 40], [5, 5]]}, r"vertex 3 at \(5, 5\) has no edge"),
+        ({"vertices": [[0, 0], [9, 0], [4, -5], [4, 5]], "edges": [[0, 1], [2, 3]]}, "cross"),
+    ],
+)
+def test_json_that_is_no_frame_is_refused(tmp_path, change, said):
+    path = written(tmp_path, "bad.json", TRIANGLE | change)
+    assert re.search(said, refusal(path))
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("", "is empty"),
+        (" \n", "is empty"),
+        ("{", "is not JSON"),
+        ("[1, 2]", 'must be a JSON object with "vertices" and "edges"'),
+        ('{"vertices": []}', 'must be a JSON object with "vertices" and "edges"'),
+        ('{"vertices": [[NaN, 0]], "edges": []}', "NaN is no number"),
+        (b"\xff\xfe\x00\x01\x02", "is not JSON"),
+        ("[" * 100_000, "is not JSON"),
+        ('{"vertices": ' + "[" * 50_000, "is not JSON"),
+        ("<svg/>", "is not JSON"),
+    ],
+)
+def test_what_is_not_json_is_refused(tmp_path, content, said):
+    assert said in refusal(written(tmp_path, "bad.json", content))
+
+
+def test_files_of_no_known_kind_missing_files_and_folders_are_refused(tmp_path):
+    assert "must end in .dxf, .json, .obj, .off, .svg" in refusal(tmp_path / "frame.step")
+    assert "No such file" in refusal(tmp_path / "frame.json")
+    (tmp_path / "folder.svg").mkdir()
+    assert "Is a directory" in refusal(tmp_path / "folder.svg")
+
+
+@pytest.mark.parametrize("kind", READERS)
+def test_each_reader_refuses_noise_and_the_files_of_the_others(tmp_path, kind):
+    others = [b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", b"solid cube\nendsolid", b"\0" * 100, b"OFFSET 3"]
+    others += [json.dumps(TRIANGLE).encode()] if kind != ".json" else []
+    others += [CUBE_TOP.encode()] if kind != ".obj" else []
+    for content in others:
+        refusal(written(tmp_path, f"bad{kind}", content), Reading(skip_unknown=True))
+
+
+def test_large_files_are_refused_unless_allowed(tmp_path):
+    vertices = [[k, 0] for k in range(1001)]
+    path = written(
+        tmp_path, "long.json", {"vertices": vertices, "edges": [[k, k + 1] for k in range(1000)]}
+    )
+    assert "1001 vertices: at most 1000, unless you allow more" in refusal(path, Reading(most=1000))
+    assert "bytes: at most 5120 for 10 segments" in refusal(path, Reading(most=10))
+    assert len(read(path, Reading(most=1001)).frame.edges) == 1000
+
+
+def test_a_million_vertices_are_refused_before_they_are_read(tmp_path):
+    path = tmp_path / "huge.obj"
+    path.write_text("v 0.123456 0.123456 0.000000\n" * 2_000_000)
+    assert "bytes: at most" in refusal(path)
+
+
+def test_parts_that_are_not_connected_are_refused_unless_asked_for(tmp_path):
+    two = {"vertices": [[0, 0], [9, 0], [0, 5], [9, 5]], "edges": [[0, 1], [2, 3]]}
+    path = written(tmp_path, "two.json", two)
+    assert "2 parts that are not connected, one with (0, 0), one with (0, 5)" in refusal(path)
+    assert len(read(path, Reading(components=True)).frame.edges) == 2
+
+
+def test_short_edges_are_refused_with_what_is_missing(tmp_path):
+    path = written(tmp_path, "a.json", TRIANGLE)
+    read(path, Reading(shortest=30.0))
+    assert refusal(path, Reading(shortest=42.0)).endswith(
+        "edge from (0, 0) to (30, 0) is 30 mm long: at least 42 mm, 12 mm are missing (and 1 more)"
+    )
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"scale": 0}, {"scale": math.nan}, {"tolerance": 0}, {"flatten": -1}]
+)
+def test_readings_that_make_no_sense_are_refused(wrong):
+    with pytest.raises(InputError, match=f"{next(iter(wrong))} = "):
+        Reading(**wrong)
+
+
+def test_obj_gives_the_sides_of_faces_and_lines(tmp_path):
+    text = f"# a roof\no top\n{CUBE_TOP}vn 0 0 1\nv 4 2 5\nf 1/1/1 2//1 3 4\nl 3 -1\ns off\n"
+    frame = read(written(tmp_path, "a.obj", text)).frame
+    assert frame.vertices.tolist() == [[0, 0], [2, 0], [0, 2], [2, 2], [4, 2]]
+    assert frame.edges.tolist() == [[0, 1], [0, 2], [1, 3], [2, 3], [3, 4]]
+
+
+def test_a_side_of_two_faces_is_one_edge_and_loose_vertices_are_none(tmp_path):
+    text = f"{CUBE_TOP}v 9 9 5\nf 1 2 3\nf 1 3 4\n"
+    frame = read(written(tmp_path, "a.obj", text)).frame
+    assert (len(frame.vertices), len(frame.edges)) == (4, 5)
+
+
+def test_off_gives_the_sides_of_faces(tmp_path):
+    text = "OFF # any\n4 2 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n3 0 1 2\n3 0 2 3 255 0 0\n"
+    frame = read(written(tmp_path, "a.off", text)).frame
+    assert (len(frame.vertices), len(frame.edges)) == (4, 5)
+
+
+def test_a_tilted_plane_is_laid_flat_the_shortest_way(tmp_path):
+    # A square of side 10, its far side raised by 30 degrees: from above 10 x 8.66.
+    rise, run = 10 * math.sin(math.pi / 6), 10 * math.cos(math.pi / 6)
+    text = f"v 0 0 0\nv 10 0 0\nv 10 {run} {rise}\nv 0 {run} {rise}\nf 1 2 3 4\n"
+    frame = read(written(tmp_path, "a.obj", text)).frame
+    assert frame.bounds == pytest.approx(np.array([[0, 0], [10, 10]]))
+
+
+def test_a_standing_plane_keeps_its_angles(tmp_path):
+    text = "v 0 0 0\nv 10 0 0\nv 10 0 20\nv 0 0 20\nf 1 2 3 4\nl 1 3\n"
+    frame = read(written(tmp_path, "a.obj", text)).frame
+    assert sorted(frame.lengths) == pytest.approx([10, 10, 20, 20, math.sqrt(500)])
+
+
+def test_what_is_not_plane_is_refused_with_how_far_off(tmp_path):
+    # The best plane through a square with one pair of opposite corners 1 up halves the way.
+    text = "v 0 0 0\nv 9 0 1\nv 9 9 0\nv 0 9 1\nf 1 2 3 4\n"
+    path = written(tmp_path, "a.obj", text)
+    assert "is not plane: a vertex is 0.5 mm off the plane of best fit, at most 0.01" in refusal(
+        path
+    )
+    assert len(read(path, Reading(tolerance=0.6)).frame.edges) == 4
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "said"),
+    [
+        ("a.obj", "v 0 0\nl 1 1\n", "line 1: must have 3 numbers"),
+        ("a.obj", "v 0 0 x\n", "line 1: must have 3 numbers"),
+        ("a.obj", "v 0 0 nan\n", "line 1: must have 3 numbers"),
+        ("a.obj", f"{CUBE_TOP}f 1 2\n", "line 5: must have 3 vertices or more"),
+        ("a.obj", f"{CUBE_TOP}f 1 2 5\n", "line 5: '5' is none of the 4 vertices before it"),
+        ("a.obj", f"{CUBE_TOP}f 1 2 0\n", "line 5: '0' is none"),
+        ("a.obj", f"{CUBE_TOP}f 1 2 -5\n", "line 5: '-5' is none"),
+        ("a.obj", f"{CUBE_TOP}f 1 2 {'9' * 5000}\n", "is none of the 4 vertices"),
+        ("a.obj", f"{CUBE_TOP}f 1 2 2\n", "line 5: an edge from a vertex to itself"),
+        ("a.obj", f"{CUBE_TOP}l 1 1\n", "line 5: an edge from a vertex to itself"),
+        ("a.obj", CUBE_TOP, "has no faces and no lines"),
+        ("a.obj", f"{CUBE_TOP}f 1 2 3\ncurv 0 1 1 2\n", "1 curv: cannot be part of a frame"),
+        ("a.obj", f"{CUBE_TOP}v 1 1 5\nf 1 2 3 4\nl 1 5\nl 5 3\nl 2 4\n", "lies on edge"),
+        ("a.off", "PLY\n", "is not OFF"),
+        ("a.off", "OFF\nthree 1\n", "line 2: must be the numbers of vertices, faces"),
+        ("a.off", "OFF\n3 1 0\n0 0 0\n", "ends after 1 of 3 vertices and 1 faces"),
+        ("a.off", "OFF\n999999999 1 0\n", "999999999 vertices or more: at most"),
+        ("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "line 6: must have 3 vertices"),
+        ("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "line 6: '3' is none of the 3"),
+        ("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "line 6: '-1' is none of the 3"),
+    ],
+)
+def test_meshes_that_are_no_frame_are_refused_with_the_line(tmp_path, name, text, said):
+    assert said in refusal(written(tmp_path, name, text))
+
+
+def test_unknown_statements_are_skipped_if_asked(tmp_path):
+    path = written(tmp_path, "a.obj", f"{CUBE_TOP}f 1 2 3\ncurv 0 1 1 2\ncurv 0 1 1 2\n")
+    assert read(path, Reading(skip_unknown=True)).notes == ("left out: 2 curv",)

@@ -1,0 +1,253 @@
+"""Which joints and edges are the same part: truths by hand, and what must not matter."""
+
+import math
+import time
+from collections import defaultdict
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import cKDTree
+
+from scadgen.errors import InputError
+from scadgen.frame.catalogue import NAMES, named
+from scadgen.frame.graph import make_frame
+from scadgen.frame.sameness import group_values, sameness, snap
+
+
+def star(*gaps):
+    """Arms with these angles between them, in degrees; the first one along x."""
+    angles = np.radians(np.cumsum([0, *gaps[:-1]]))
+    tips = 10 * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    edges = [[0, k + 1] for k in range(len(gaps))]
+    return np.vstack([[[0, 0]], tips]), np.array(edges)
+
+
+def together(*parts):
+    """Several graphs side by side as one frame."""
+    points, edges, count = [], [], 0
+    for n, (p, e) in enumerate(parts):
+        points.append(p + np.array([1000.0 * n, 0.0]))
+        edges.append(e + count)
+        count += len(p)
+    return make_frame("together", np.vstack(points), np.vstack(edges))
+
+
+def mirrored(frame):
+    return frame.vertices * [-1, 1], frame.edges
+
+
+def partition(labels):
+    groups = defaultdict(set)
+    for element, label in enumerate(labels.tolist()):
+        groups[label].add(element)
+    return {frozenset(group) for group in groups.values()}
+
+
+def classes(same, degree):
+    return [joint for joint in same.joints if len(joint.directions) == degree]
+
+
+def test_hexagonal_has_one_inner_joint_in_two_orientations():
+    same = sameness(named("hexagonal", rows=4, columns=4))
+    (inner,) = classes(same, 3)
+    assert inner.symmetry == 3
+    assert np.degrees(inner.directions) == pytest.approx([0, 120, 240], abs=1e-9)
+    turns = np.degrees(same.turn[inner.vertices])
+    assert sorted(set(turns.round(6))) == [30, 90]
+    # At the rim one joint of two edges.  Edges: inside; from inside to either edge of a rim
+    # joint; and between two rim joints, where they are always the one and the other.
+    assert len(same.joints) == 2
+    assert len(same.edges) == 4
+
+
+def test_square_has_an_inner_a_side_and_a_corner_joint():
+    same = sameness(named("square", rows=4, columns=4))
+    assert [(len(j.directions), j.symmetry, len(j.vertices)) for j in same.joints] == [
+        (2, 1, 4),
+        (3, 1, 12),
+        (4, 4, 9),
+    ]
+    assert set(same.turn[same.joints[2].vertices].round(9)) == {0.0}
+    # Inside; inside to side; along a side; and from a side's first or last edge to a corner.
+    assert sorted(len(edge.edges) for edge in same.edges) == [4, 4, 8, 12, 12]
+
+
+def test_3464_has_one_inner_joint_that_is_its_own_mirror_image():
+    # Gaps 60, 90, 120, 90: read backwards they are the same cycle, and no turn maps them on
+    # themselves.  It stands in the six orientations of the hexagon's corners.
+    same = sameness(named("3.4.6.4", rows=4, columns=4))
+    (inner,) = classes(same, 4)
+    assert inner.symmetry == 1
+    assert len(set(np.degrees(same.turn[inner.vertices]).round(6))) == 6
+
+
+def test_4612_has_two_inner_joints_that_are_mirror_images():
+    # Gaps 90, 120, 150 one way round in one half of them, the other way in the other.
+    same = sameness(named("4.6.12", rows=4, columns=4))
+    gaps = []
+    for joint in classes(same, 3):
+        gap = np.degrees(np.diff(np.append(joint.directions, 2 * np.pi)))
+        gaps.append(tuple(np.roll(gap, -int(gap.argmin())).round(6)))
+        assert joint.symmetry == 1
+    assert sorted(gaps) == [(90, 120, 150), (90, 150, 120)]
+
+
+def test_a_joint_is_never_the_same_as_its_mirror_image():
+    same = sameness(together(star(80, 120, 160), star(80, 160, 120), star(120, 160, 80)))
+    centres = classes(same, 3)
+    assert sorted(len(joint.vertices) for joint in centres) == [1, 2]
+
+
+def test_333336_and_its_mirror_image_share_joints_but_not_edges():
+    # Its gaps 60, 60, 60, 60, 120 are a mirror image of themselves; its hand is in how joints
+    # are connected.  Counted from the hexagon, edges 0 and 4 are the hexagon's; one edge
+    # leads from slot 1 to slot 1 or, in the mirror, from 3 to 3; and one from 2 to 3 or to 1.
+    frame = named("3.3.3.3.6", rows=4, columns=4)
+    both = together((frame.vertices, frame.edges), mirrored(frame))
+    for there, count in ((frame, 3), (both, 5)):
+        same = sameness(there)
+        inner = [n for n, joint in enumerate(same.joints) if len(joint.directions) == 5]
+        assert len(inner) == 1
+        slots = {edge.slots for edge in same.edges if edge.joints == (inner[0], inner[0])}
+        assert len(slots) == count
+    assert len({a for a, b in slots if a == b}) == 2
+
+
+def test_a_rectangle_has_edges_of_two_lengths_between_like_joints():
+    same = sameness(named("rectangular", width=60.0, height=40.0, rows=4, columns=4))
+    inner = len(same.joints) - 1
+    between = [edge for edge in same.edges if edge.joints == (inner, inner)]
+    assert [edge.length for edge in between] == [40.0, 60.0]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_turn_and_shift_map_the_class_onto_each_joint(name):
+    frame = named(name)
+    same = sameness(frame)
+    for number, joint in enumerate(same.joints):
+        assert len(joint.directions) == joint.period * joint.symmetry
+        assert joint.directions[0] == 0
+        for vertex in joint.vertices:
+            assert same.joint_of[vertex] == number
+            seen = np.roll(frame.directions(vertex), -same.shift[vertex])
+            off = seen - joint.directions - same.turn[vertex]
+            off = (off + np.pi) % (2 * np.pi) - np.pi
+            assert np.abs(off).max() == pytest.approx(same.angle_errors[vertex], abs=1e-12)
+            assert same.angle_errors[vertex] < 1e-9
+            assert -1e-4 <= same.turn[vertex] < 2 * np.pi / joint.symmetry
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_each_edge_connects_what_its_class_says(name):
+    frame = named(name)
+    same = sameness(frame)
+    for number, kind in enumerate(same.edges):
+        for edge in kind.edges:
+            assert same.edge_of[edge] == number
+            assert frame.lengths[edge] == pytest.approx(kind.length)
+            sides = (1, 0) if same.swapped[edge] else (0, 1)
+            for side, joint, slot in zip(sides, kind.joints, kind.slots, strict=True):
+                vertex = frame.edges[edge, side]
+                assert same.joint_of[vertex] == joint
+                seen = (frame.slots[edge, side] - same.shift[vertex]) % frame.degree[vertex]
+                assert seen % same.joints[joint].period == slot
+
+
+@settings(deadline=None, max_examples=30)
+@given(
+    st.sampled_from(["hexagonal", "3.4.6.4", "4.6.12", "3.3.3.3.6", "V3.3.3.4.4", "strip"]),
+    st.floats(0, 360),
+    st.tuples(st.floats(-500, 500), st.floats(-500, 500)),
+    st.integers(0, 2**32 - 1),
+)
+def test_turning_moving_and_renumbering_change_no_group(name, degrees, move, seed):
+    frame = named(name)
+    angle = math.radians(degrees)
+    turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
+    order = np.random.default_rng(seed).permutation(len(frame.vertices))
+    moved = frame.vertices @ turn + move
+    other = make_frame("moved", moved[order], np.argsort(order)[frame.edges])
+    number = cKDTree(other.vertices).query(moved)[1]
+    rows = {tuple(edge): n for n, edge in enumerate(other.edges.tolist())}
+    edge_number = [rows[tuple(sorted(number[edge].tolist()))] for edge in frame.edges]
+    one, two = sameness(frame), sameness(other)
+    assert partition(one.joint_of) == partition(two.joint_of[number])
+    assert partition(one.edge_of) == partition(two.edge_of[edge_number])
+    difference = (two.turn[number] - one.turn) % (2 * np.pi)
+    for joint in one.joints:
+        spread = difference[joint.vertices] * joint.symmetry
+        assert np.cos(spread - spread[0]).min() > 1 - 1e-9
+
+
+def test_edges_at_alike_slots_of_a_symmetric_joint_are_alike():
+    # Gaps 60, 120, 60, 120: a half turn maps the joint on itself, so that four arms are two kinds.
+    same = sameness(together(star(60, 120, 60, 120)))
+    assert same.joints[-1].symmetry == 2
+    assert [len(edge.edges) for edge in same.edges] == [2, 2]
+
+
+def test_angles_within_the_tolerance_are_the_same_and_beyond_it_not():
+    frame = together(star(100, 120, 140), star(100.2, 120, 139.8), star(101, 120, 139))
+    joints = classes(sameness(frame, math.radians(0.2)), 3)
+    assert sorted(len(joint.vertices) for joint in joints) == [1, 2]
+    assert len(classes(sameness(frame), 3)) == 3
+    assert len(classes(sameness(frame, math.radians(2)), 3)) == 1
+
+
+def test_numbers_are_grouped_into_as_few_as_can_be():
+    results, group = group_values(np.array([3.0, 1.0, 1.2, 5.0, 3.1]), 0.1)
+    assert results == pytest.approx([1.1, 3.05, 5.0])
+    assert group.tolist() == [1, 0, 0, 2, 1]
+
+
+@given(st.lists(st.floats(-1e3, 1e3), min_size=1, max_size=50), st.floats(1e-3, 10))
+def test_no_number_moves_by_more_than_the_tolerance(values, tolerance):
+    results, group = group_values(np.array(values), tolerance)
+    assert np.abs(results[group] - values).max() <= tolerance * (1 + 1e-9)
+    assert (np.diff(results) > 0).all()
+
+
+def test_snapping_makes_fewer_parts_and_says_what_it_costs():
+    # Two ladders of rungs 40 and 40.3 mm; snapped by 0.2 mm both become 40.15.
+    rungs = np.array([[0, 0], [50, 0], [0, 40], [50, 40]])
+    longer = rungs * [1, 40.3 / 40]
+    edges = np.array([[0, 1], [2, 3], [0, 2], [1, 3]])
+    frame = together((rungs, edges), (longer, edges))
+    assert sorted({e.length for e in sameness(frame).edges}) == pytest.approx([40, 40.3, 50])
+    snapped = snap(frame, 0.01, 0.2)
+    assert sorted({e.length for e in snapped.same.edges}) == pytest.approx([40.15, 50])
+    assert snapped.length_error == pytest.approx(0.15)
+    assert snapped.angle_error == pytest.approx(0, abs=1e-9)
+    assert snapped.miss == pytest.approx(0.15)
+    assert "lengths change by up to 0.15 mm, at (0, 20)" in snapped.notes
+
+
+def test_snapped_angles_are_within_the_tolerance():
+    # The joint's mean is 100.5, 119.5, 140 or its first one: either way within a degree.
+    frame = together(star(100, 120, 140), star(101, 119, 140))
+    snapped = snap(frame, math.radians(1), 0.01)
+    assert len(classes(snapped.same, 3)) == 1
+    assert 0 < snapped.angle_error <= math.radians(1)
+    assert snapped.miss == pytest.approx(10 * math.sin(snapped.angle_error), rel=1e-3)
+
+
+@pytest.mark.parametrize("angle", [0, -1, math.nan, math.radians(40)])
+def test_angles_that_would_merge_edges_are_refused(angle):
+    with pytest.raises(InputError, match=r"angle_tolerance = .*a quarter of the smallest gap"):
+        sameness(named("square"), angle)
+
+
+def test_lengths_need_a_tolerance():
+    with pytest.raises(InputError, match="tolerance = 0"):
+        sameness(named("square"), 0.01, 0)
+
+
+def test_thirty_thousand_edges_are_grouped_in_two_seconds():
+    frame = named("hexagonal", rows=100, columns=100)
+    assert len(frame.edges) == 30_399
+    start = time.process_time()
+    same = sameness(frame)
+    assert time.process_time() - start < 2.0
+    assert (len(same.joints), len(same.edges)) == (2, 4)
