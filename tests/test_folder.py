@@ -17,6 +17,7 @@ FILES = {
     "kit.json",
     "hexagonal.scad",
     "hexagonal.json",
+    "hexagonal.FCMacro",
     "Makefile",
     "check_stl.py",
     "README.md",

@@ -61,6 +61,14 @@ def test_wheel_has_the_package_its_types_and_its_templates(wheel):
     assert shipped == {p.name for p in (ROOT / "templates").iterdir()}
 
 
+def test_wheel_has_the_workbench_without_leavings(wheel):
+    ours = ROOT / "freecad_workbench"
+    shipped = wheel / "scadgen" / "freecad_workbench"
+    names = {p.relative_to(ours) for p in ours.rglob("*") if p.is_file()}
+    kept = {name for name in names if "__pycache__" not in name.parts}
+    assert {p.relative_to(shipped) for p in shipped.rglob("*") if p.is_file()} == kept
+
+
 def test_templates_are_found_from_the_wheel_alone(wheel, tmp_path):
     code = (
         "import scadgen; from scadgen.emit.templates import environment;"
@@ -125,11 +133,11 @@ def test_setup_without_apt_get_says_in_one_line_what_is_missing(tmp_path, bare_p
     assert not (copy / ".venv").exists()
 
 
-def test_setup_for_tests_also_needs_node(tmp_path, bare_path):
+def test_setup_for_tests_also_needs_node_and_freecad(tmp_path, bare_path):
     copy = copy_tree(tmp_path / "tree")
     said = run(SHELL, "scripts/setup", "tests", cwd=copy, PATH=bare_path)
     (line,) = said.stderr.splitlines()
-    assert line.startswith("setup: missing: openscad xvfb xauth nodejs npm ")
+    assert line.startswith("setup: missing: openscad xvfb xauth nodejs npm freecad")
 
 
 def test_setup_refuses_an_unknown_argument_in_one_line():

@@ -75,6 +75,7 @@ def test_it_makes_a_kit(installed, tmp_path):
         "kit.json",
         "hexagonal.scad",
         "hexagonal.json",
+        "hexagonal.FCMacro",
         "Makefile",
         "check_stl.py",
         "README.md",

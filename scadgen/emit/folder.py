@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
+from scadgen.emit.macro import macro
 from scadgen.emit.makefile import makefile, stl_check
 from scadgen.emit.picture import preview
 from scadgen.emit.readme import readme
@@ -29,6 +30,7 @@ def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
         "kit.json": dumps,
         f"{kit.frame}.scad": scad,
         f"{kit.frame}.json": parameter_sets,
+        f"{kit.frame}.FCMacro": macro,
         "Makefile": makefile,
         "check_stl.py": lambda _: stl_check(),
         "README.md": readme,

@@ -58,6 +58,7 @@ def readme(kit: Kit) -> str:
         columns=kit.columns,
         detail=kit.detail,
         scad=f"{kit.frame}.scad",
+        macro=f"{kit.frame}.FCMacro",
         needed=needed,
         total=total,
         grams=total * _PLA,

@@ -1,0 +1,263 @@
+"""Reading a kit and evaluating its affine solids, with the standard library alone.
+
+A vertex of a part is the sum of each live parameter times its factors; the faces never
+change.  ``kit.json`` holds the factors and the ranges of the parameters.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from freecad.scadgen.faces import Face, Point, Triangle, edges_of, faces
+from freecad.scadgen.layout import LAYOUTS
+
+__all__ = ["KitData", "KitError", "Solid", "parse_kit", "read_kit"]
+
+#: Format and version of ``kit.json`` that is read here.
+_FORMAT, _VERSION = "scadgen-kit", 1
+
+#: What rounding of decimal input may take a value past its bound, in mm.
+_SLACK = 1e-9
+
+
+class KitError(ValueError):
+    """A kit cannot be read; its text is one line."""
+
+
+class Solid:
+    """A closed polyhedron whose vertices are linear in the live parameters.
+
+    Parameters
+    ----------
+    name
+        The part's name.
+    factors
+        For each live parameter that moves a vertex, the factors in x, y, z of all vertices.
+    triangles
+        Vertices of each triangle, counter-clockwise from outside.
+    facets
+        One number a triangle; those with the same number stay in one plane.
+    values
+        Live parameters at which the solid is sound, in mm.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        factors: Mapping[str, Sequence[Sequence[float]]],
+        triangles: Iterable[Sequence[int]],
+        facets: Iterable[int],
+        values: Mapping[str, float],
+    ) -> None:
+        self.name = name
+        self.triangles: list[Triangle] = [(a, b, c) for a, b, c in triangles]
+        self.facets = list(facets)
+        self._factors = {p: [f for row in rows for f in row] for p, rows in factors.items()}
+        self._values = dict(values)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """The live parameters that move its vertices."""
+        return (*self._factors,)
+
+    def points(self, values: Mapping[str, float]) -> list[Point]:
+        """Vertices at the given live parameters, all in mm."""
+        (first, factors), *others = self._factors.items()
+        value = values[first]
+        flat = [value * f for f in factors]
+        for name, factors in others:
+            value = values[name]
+            flat = [x + value * f for x, f in zip(flat, factors)]
+        return list(zip(flat[::3], flat[1::3], flat[2::3]))
+
+    def polygons(self) -> list[list[list[int]]]:
+        """Outlines of all faces: a list of loops each, the outer one first."""
+        return [face.loops for face in self.faces]
+
+    @cached_property
+    def faces(self) -> list[Face]:
+        """The largest flat faces; they cover the surface."""
+        return faces(self.triangles, self.facets, self.points(self._values))
+
+
+class KitData:
+    """A kit: what ``kit.json`` holds, with its solids ready to be evaluated."""
+
+    def __init__(self, document: Mapping[str, Any]) -> None:
+        self.frame: str = document["frame"]
+        self.key: str = document["key"]
+        self.detail: str = document["detail"]
+        self.rows: int = document["rows"]
+        self.columns: int = document["columns"]
+        self.command: str = document["command"]
+        self.values: dict[str, float] = {n: float(v) for n, v in document["values"].items()}
+        self.joint: list[dict[str, Any]] = document["joint"]
+        self.bill: dict[str, int] = document["bill"]
+        self.ranges: list[dict[str, Any]] = document["ranges"]
+        self.parts = {
+            name: _solid(name, entry, self.values) for name, entry in document["parts"].items()
+        }
+
+    @cached_property
+    def placements(self) -> list[dict[str, Any]]:
+        """Where every part of the frame stands, as in `joint`; positions in edge lengths."""
+        return LAYOUTS[self.frame](self.rows, self.columns, self.key)
+
+    def limits(self, name: str, values: Mapping[str, float]) -> tuple[float, float]:
+        """Lowest and highest value of a live parameter at the others' values, in mm."""
+        own = [r for r in self.ranges if r["parameter"] == name]
+        return max(_at(r["low"], values) for r in own), min(_at(r["high"], values) for r in own)
+
+    def check(self, values: Mapping[str, float]) -> list[str]:
+        """Say in one line each which live parameters are out of their ranges.
+
+        Parameters
+        ----------
+        values
+            All live parameters of the kit, in mm.
+        """
+        wrong = [n for n in self.values if not math.isfinite(values[n])]
+        if wrong:
+            return [f"{n} = {values[n]:g}: must be a finite number of mm" for n in wrong]
+        return [said for limit in self.ranges if (said := _breach(limit, values))]
+
+
+def read_kit(path: str | Path) -> KitData:
+    """Read a ``kit.json``, or the one in a folder.
+
+    Raises
+    ------
+    KitError
+        It is missing, broken, or of another version: says what.
+    """
+    path = Path(path)
+    path = path / "kit.json" if path.is_dir() else path
+    try:
+        return parse_kit(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        msg = f"{path}: no kit can be read there ({error.strerror}); scadgen kit makes one"
+        raise KitError(msg) from error
+    except UnicodeDecodeError as error:
+        msg = f"{path}: not a kit: byte {error.start} is not UTF-8"
+        raise KitError(msg) from error
+    except KitError as error:
+        msg = f"{path}: {error}"
+        raise KitError(msg) from error
+
+
+def parse_kit(text: str) -> KitData:
+    """Read the text of a ``kit.json``.
+
+    Raises
+    ------
+    KitError
+        It is broken, or of another version: says what.
+    """
+    again = "make it again with scadgen kit"
+    try:
+        document = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        msg = f"not a sound kit: truncated or not JSON ({error}); {again}"
+        raise KitError(msg) from error
+    if not isinstance(document, dict) or document.get("format") != _FORMAT:
+        msg = f"not a kit: format is not {_FORMAT}; choose the kit.json that scadgen kit wrote"
+        raise KitError(msg)
+    if document.get("version") != _VERSION:
+        msg = (
+            f"kit version {document.get('version')!r}: this reads version {_VERSION}; "
+            "update it, or make the kit again with the scadgen that belongs to it"
+        )
+        raise KitError(msg)
+    try:
+        kit = KitData(document)
+        _check_sense(kit)
+    except KeyError as error:
+        msg = f"not a sound kit: {error} is missing; {again}"
+        raise KitError(msg) from error
+    except (AttributeError, TypeError, ValueError, IndexError) as error:
+        msg = f"not a sound kit: {error}; {again}"
+        raise KitError(msg) from error
+    return kit
+
+
+def _check_sense(kit: KitData) -> None:
+    """Refuse what would fail later.
+
+    Raises
+    ------
+    ValueError
+        A number or a name makes no sense: says which.
+    """
+    if kit.frame not in LAYOUTS:
+        msg = f"frame = {kit.frame!r}: must be one of {', '.join(LAYOUTS)}"
+        raise ValueError(msg)
+    ranged = {r["parameter"] for r in kit.ranges}
+    for name in kit.values:
+        if name not in ranged:
+            msg = f"no range for {name}"
+            raise ValueError(msg)
+    for said in kit.check(kit.values):
+        raise ValueError(said)
+    for placement in kit.joint:
+        if placement["part"] not in kit.parts or not {"at", "turn", "flip", "role"} <= {*placement}:
+            msg = f"the joint has no part {placement['part']}, or no place for it"
+            raise ValueError(msg)
+
+
+def _solid(name: str, entry: Mapping[str, Any], values: Mapping[str, float]) -> Solid:
+    """A solid from its tables.
+
+    Raises
+    ------
+    ValueError
+        They are not finite numbers of the right shape, or not a closed surface.
+    """
+    solid = Solid(name, entry["points"], entry["triangles"], entry["facets"], values)
+    if not {*solid.parameters} <= {*values}:
+        msg = f"part {name}: moved by a parameter that the kit lacks"
+        raise ValueError(msg)
+    lengths = {len(rows) for rows in entry["points"].values()}
+    wide = {len(row) for rows in entry["points"].values() for row in rows}
+    if len(lengths) != 1 or wide != {3} or len(solid.facets) != len(solid.triangles):
+        msg = f"part {name}: tables of the wrong shape"
+        raise ValueError(msg)
+    if not _is_closed(solid, lengths.pop()):
+        msg = f"part {name}: its triangles are not a closed surface"
+        raise ValueError(msg)
+    if not all(math.isfinite(x) for point in solid.points(values) for x in point):
+        msg = f"part {name}: a coordinate is not a finite number"
+        raise ValueError(msg)
+    return solid
+
+
+def _is_closed(solid: Solid, count: int) -> bool:
+    """Whether each edge has one triangle on each side, and each corner is a vertex."""
+    if not all(type(v) is int and 0 <= v < count for t in solid.triangles for v in t):
+        return False
+    edges = {edge for t in solid.triangles for edge in edges_of(t)}
+    return len(edges) == 3 * len(solid.triangles) and all((b, a) in edges for a, b in edges)
+
+
+def _at(linear: Mapping[str, Any], values: Mapping[str, float]) -> float:
+    """A linear expression's value, in mm."""
+    terms: Mapping[str, float] = linear["terms"]
+    constant: float = linear["constant"]
+    return constant + sum(factor * values[name] for name, factor in terms.items())
+
+
+def _breach(limit: Mapping[str, Any], values: Mapping[str, float]) -> str:
+    """What is out of a range, in one line; nothing if all is well."""
+    name = limit["parameter"]
+    low, high, value = _at(limit["low"], values), _at(limit["high"], values), values[name]
+    if low - _SLACK <= value <= high + _SLACK:
+        return ""
+    others = sorted({*limit["low"]["terms"], *limit["high"]["terms"]})
+    given = ", ".join(f"{other} = {values[other]:g}" for other in others)
+    span = f"{low:.4g} to {high:.4g}" if low <= high else "less than is possible"
+    where = f" for {given}" if given else ""
+    return f"{name} = {value:g} mm: must be {span} mm{where} ({limit['reason']})"

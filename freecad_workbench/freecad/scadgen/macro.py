@@ -1,0 +1,271 @@
+"""What a kit's macro does: opens the kit as a document, or brings an open one back to life.
+
+The document has a spreadsheet of the live parameters, every part as a solid that follows it,
+and the joint and the frame out of links to the parts.  The classes below live in the macro,
+which is gone when the document is opened again; so documents do not name them: shapes stay as
+they are until the macro runs again.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import FreeCAD
+
+from freecad.scadgen.affine import KitData, parse_kit
+from freecad.scadgen.names import COLOURS, LENGTHS, label_of, property_of, role_alone
+from freecad.scadgen.refusal import refuse
+from freecad.scadgen.shape import make_shape, placed
+
+__all__ = ["open_kit"]
+
+#: The property by which the macro finds its objects again.
+_MARK = "ScadgenMacro"
+
+#: Room between things that stand side by side, in mm.
+_ROOM = 10.0
+
+#: Frames of more pieces are not shown at once: drawing them takes a while.
+_SHOWN = 1000
+
+
+class PartOfKit:
+    """A part, evaluated at its own live parameters."""
+
+    def __init__(self, obj: Any, kit: KitData) -> None:
+        self._kit = kit
+        self._solid = kit.parts[getattr(obj, _MARK)]
+        self._made: list[float] | None = None
+        _attach(self, obj)
+
+    def execute(self, obj: Any) -> None:
+        """Make the shape again if what moves it has changed.
+
+        Raises
+        ------
+        ValueError
+            A live parameter is out of its range: says which, and what works.
+        """
+        values = {name: getattr(obj, property_of(name)).Value for name in self._kit.values}
+        if wrong := self._kit.check(values):
+            refuse("; ".join(wrong))
+        moving = [values[name] for name in self._solid.parameters]
+        if moving != self._made:
+            obj.Shape = make_shape(self._solid, values)
+            self._made = moving
+
+
+class PiecesOfFrame:
+    """All pieces of a frame that have the same role: one link with many places."""
+
+    def __init__(self, obj: Any, kit: KitData) -> None:
+        role = getattr(obj, _MARK)
+        self._places = [place for place in kit.placements if place["role"] == role]
+        obj.ElementCount = len(self._places)
+        _attach(self, obj)
+
+    def execute(self, obj: Any) -> None:
+        """Put the pieces where they stand at this edge length."""
+        edge_length = obj.EdgeLength.Value
+        obj.PlacementList = [placed(place, edge_length) for place in self._places]
+
+
+def open_kit(text: str) -> Any:
+    """Open a kit as a document, or take up the active one if it was made of the same kit.
+
+    Parameters
+    ----------
+    text
+        The text of ``kit.json``.
+
+    Returns
+    -------
+    document
+        FreeCAD's document, recomputed.
+
+    Raises
+    ------
+    KitError
+        The text is not a sound kit.
+    """
+    kit = parse_kit(text)
+    mark = hashlib.sha256(text.encode()).hexdigest()
+    document = FreeCAD.ActiveDocument
+    if document is None or not _marked(document, mark):
+        document = _new(kit, mark)
+    else:
+        _revive(document, kit)
+    document.recompute()
+    _show(document)
+    return document
+
+
+def _marked(document: Any, mark: str) -> bool:
+    """Whether a document was made of the kit that has this mark."""
+    sheets = document.findObjects("Spreadsheet::Sheet")
+    return any(getattr(sheet, _MARK, "") == mark for sheet in sheets)
+
+
+def _new(kit: KitData, mark: str) -> Any:
+    """A document of a kit."""
+    document = FreeCAD.newDocument(f"{kit.frame}_{kit.key}")
+    sheet = _sheet(document, kit)
+    _add(sheet, "App::PropertyString", _MARK, "What the macro knows it by", mark)
+    document.recompute()
+    parts = _parts(document, kit, sheet)
+    document.recompute()
+    box = parts["connector"].Shape.BoundBox
+    reach = max(box.XMax, -box.XMin, box.YMax)
+    _in_a_row(parts.values(), -reach - _ROOM)
+    _joint(document, kit, parts)
+    _frame(document, kit, parts, sheet, 2 * reach + _ROOM)
+    return document
+
+
+def _revive(document: Any, kit: KitData) -> None:
+    """Give the objects of a document their behaviour back."""
+    for obj in document.Objects:
+        if _MARK in obj.PropertiesList and obj.TypeId == "Part::FeaturePython":
+            PartOfKit(obj, kit)
+            obj.touch()
+        elif _MARK in obj.PropertiesList and obj.TypeId == "App::LinkPython":
+            PiecesOfFrame(obj, kit)
+            obj.touch()
+
+
+def _sheet(document: Any, kit: KitData) -> Any:
+    """The live parameters, one a row: an alias for each value, and what it may be."""
+    sheet = document.addObject("Spreadsheet::Sheet", "Parameters")
+    titles = ("Parameter", "Value", "From", "To", "Meaning", "Why")
+    for column, title in zip("ABCDEF", titles):
+        sheet.set(f"{column}1", title)
+    sheet.setStyle("A1:F1", "bold")
+    for row, (name, value) in enumerate(kit.values.items(), 2):
+        limits = [r for r in kit.ranges if r["parameter"] == name]
+        low, high = (
+            " and ".join(dict.fromkeys(_words(r[end]) for r in limits)) for end in ("low", "high")
+        )
+        why = "; ".join(r["reason"] for r in limits)
+        for column, cell in zip("ACDEF", (name, low, high, LENGTHS[name][1], why)):
+            sheet.set(f"{column}{row}", f"'{cell}")
+        sheet.set(f"B{row}", f"={value!r} mm")
+        sheet.setAlias(f"B{row}", name)
+    for column, width in zip("ABCDEF", (110, 90, 190, 260, 290, 400)):
+        sheet.setColumnWidth(column, width)
+    return sheet
+
+
+def _words(linear: Mapping[str, Any]) -> str:
+    """A bound as a person writes it."""
+    terms = [(f"{abs(f):.5g} {name}", f) for name, f in linear["terms"].items() if f]
+    if linear["constant"] or not terms:
+        terms.append((f"{abs(linear['constant']):.5g} mm", linear["constant"]))
+    words = "".join(f" {'-' if f < 0 else '+'} {text}" for text, f in terms)
+    return words[3:] if terms[0][1] >= 0 else words[1:]
+
+
+def _parts(document: Any, kit: KitData, sheet: Any) -> dict[str, Any]:
+    """Every part as a solid that follows the spreadsheet."""
+    group = document.addObject("App::DocumentObjectGroup", "Parts")
+    parts = {}
+    for name in kit.parts:
+        obj = document.addObject("Part::FeaturePython", name)
+        obj.Label = label_of(name)
+        _add(obj, "App::PropertyString", _MARK, "The part of the kit", name)
+        for parameter in kit.values:
+            own = property_of(parameter)
+            # A PropertyLength would take a negative value for 0.
+            _add(obj, "App::PropertyDistance", own, LENGTHS[parameter][1], kit.values[parameter])
+            obj.setExpression(own, f"{sheet.Name}.{parameter}")
+        _draw_as_usual(obj)
+        PartOfKit(obj, kit)
+        group.addObject(obj)
+        parts[name] = obj
+    return parts
+
+
+def _in_a_row(parts: Iterable[Any], top: float) -> None:
+    """Lay parts out one below the other."""
+    for obj in parts:
+        box = obj.Shape.BoundBox
+        obj.Placement.Base = FreeCAD.Vector(0, top - box.YMax, 0)
+        top -= box.YLength + _ROOM
+
+
+def _joint(document: Any, kit: KitData, parts: Mapping[str, Any]) -> None:
+    """The pieces that meet at one vertex, assembled."""
+    group = document.addObject("App::Part", "Joint")
+    seen: Counter[str] = Counter()
+    for place in kit.joint:
+        role = place["role"]
+        link = document.addObject("App::Link", role)
+        link.LinkedObject = parts[place["part"]]
+        link.Placement = placed(place, kit.values["edge_length"])
+        group.addObject(link)
+        _paint(link, role, lighter=0.25 * seen[role])
+        seen[role] += 1
+
+
+def _frame(document: Any, kit: KitData, parts: Mapping[str, Any], sheet: Any, y: float) -> None:
+    """The whole frame: one link for each role, with as many places as it has pieces."""
+    group = document.addObject("App::Part", "Frame")
+    group.Placement.Base = FreeCAD.Vector(0, y, 0)
+    kinds = {place["role"]: place["part"] for place in kit.placements}
+    for role, kind in kinds.items():
+        link = document.addObject("App::LinkPython", f"frame_{role}")
+        link.LinkedObject = parts[kind]
+        link.ShowElement = False
+        _add(link, "App::PropertyString", _MARK, "The role of its pieces", role)
+        _add(link, "App::PropertyDistance", "EdgeLength", LENGTHS["edge_length"][1], 0.0)
+        link.setExpression("EdgeLength", f"{sheet.Name}.edge_length")
+        _draw_as_usual(link)
+        PiecesOfFrame(link, kit)
+        group.addObject(link)
+        _paint(link, role)
+    group.Visibility = len(kit.placements) <= _SHOWN
+
+
+def _attach(proxy: Any, obj: Any) -> None:
+    """Make an object behave; the document does not keep the proxy."""
+    obj.Proxy = proxy
+    obj.setPropertyStatus("Proxy", "Transient")
+
+
+def _add(obj: Any, kind: str, name: str, text: str, value: object) -> None:
+    obj.addProperty(kind, name, "Scadgen", text)
+    setattr(obj, name, value)
+
+
+def _paint(link: Any, role: str, lighter: float = 0.0) -> None:
+    """Give a link the colour of its role, where there is something to see."""
+    if FreeCAD.GuiUp:
+        material = link.ViewObject.ShapeMaterial
+        material.DiffuseColor = tuple(c + lighter * (1 - c) for c in _colour(role))
+        link.ViewObject.OverrideMaterial = True
+        link.ViewObject.ShapeMaterial = material
+
+
+def _colour(role: str) -> tuple[float, ...]:
+    return tuple(c / 255 for c in COLOURS[role])
+
+
+def _draw_as_usual(obj: Any) -> None:
+    """Leave drawing to FreeCAD, which draws no scripted object before it was told who does."""
+    if FreeCAD.GuiUp:
+        obj.ViewObject.Proxy = 0
+
+
+def _show(document: Any) -> None:
+    """Look at all of it."""
+    if FreeCAD.GuiUp:
+        import FreeCADGui
+
+        for obj in document.findObjects("Part::FeaturePython"):
+            obj.ViewObject.ShapeColor = _colour(role_alone(getattr(obj, _MARK)))
+            obj.ViewObject.DisplayMode = "Shaded"  # walls have more edges than one can see
+            obj.ViewObject.Visibility = True  # what is linked to was hidden
+        FreeCADGui.activeDocument().activeView().viewIsometric()
+        FreeCADGui.SendMsgToActiveView("ViewFit")

@@ -1,0 +1,159 @@
+"""Kits read and evaluated by the FreeCAD side, in plain Python."""
+
+import copy
+import json
+import sys
+
+import numpy as np
+import pytest
+from kits import kit, random_inside
+
+from scadgen.emit.macro import workbench
+from scadgen.frame.layout import LAYOUTS
+from scadgen.kit.store import dumps
+
+sys.path.append(str(workbench()))
+from freecad.scadgen.affine import KitError, parse_kit, read_kit
+from freecad.scadgen.faces import newell
+
+KINDS = {"hexagonal": ("hexagonal", "fixed", 0.0), "square": ("square", "loose", 1.5)}
+
+
+def the(frame):
+    return kit(*KINDS[frame])
+
+
+@pytest.fixture(params=[*KINDS])
+def made(request):
+    return the(request.param)
+
+
+def test_plain_python_evaluates_the_same_points(made):
+    data = parse_kit(dumps(made))
+    for seed in range(3):
+        values = random_inside(made, seed)
+        for name, solid in made.parts.items():
+            found = np.array(data.parts[name].points(values))
+            np.testing.assert_allclose(found, solid.points(values), rtol=0, atol=1e-9)
+
+
+def test_faces_cover_the_surface_and_stay_flat(made):
+    data = parse_kit(dumps(made))
+    for name, solid in data.parts.items():
+        assert sorted(t for face in solid.faces for t in face.triangles) == sorted(solid.triangles)
+        assert len(solid.polygons()) < len(solid.triangles)
+        for seed in range(3):
+            points = solid.points(random_inside(made, seed))
+            for face in solid.faces:
+                total = sum(np.array(newell(loop, points)) for loop in face.loops)
+                whole = sum(np.array(newell(t, points)) for t in face.triangles)
+                np.testing.assert_allclose(total, whole, atol=1e-6)
+                normal = np.array(newell(face.loops[0], points))
+                normal /= np.linalg.norm(normal)
+                corners = np.array([points[v] for loop in face.loops for v in loop])
+                assert np.abs((corners - corners[0]) @ normal).max() < 1e-6, name
+
+
+@pytest.mark.parametrize(("rows", "columns"), [(1, 1), (1, 4), (3, 2), (4, 5)])
+@pytest.mark.parametrize("key", ["fixed", "loose"])
+@pytest.mark.parametrize("frame", ["hexagonal", "square"])
+def test_placements_are_those_of_the_layout(frame, key, rows, columns):
+    document = json.loads(dumps(the(frame))) | {"rows": rows, "columns": columns, "key": key}
+    found = parse_kit(json.dumps(document)).placements
+    ours = LAYOUTS[frame](rows, columns, key)
+    assert [(p["part"], tuple(p["at"]), p["turn"], p["flip"], p["role"]) for p in found] == [
+        (p.part, p.at, p.turn, p.flip, p.role) for p in ours
+    ]
+
+
+def test_values_out_of_range_are_named_with_what_works():
+    data = parse_kit(dumps(the("hexagonal")))
+    assert data.check(data.values) == []
+    high = data.limits("clearance", data.values)[1]
+    (said,) = data.check(data.values | {"clearance": 9.0})[:1]
+    assert said.startswith(f"clearance = 9 mm: must be 0 to {high:.4g} mm for side = 10 (")
+    assert data.check(data.values | {"side": float("nan")}) == [
+        "side = nan: must be a finite number of mm"
+    ]
+
+
+def broken(change):
+    document = json.loads(dumps(the("hexagonal")))
+    change(document)
+    return json.dumps(document)
+
+
+def set_in(*path, value):
+    def change(document):
+        for step in path[:-1]:
+            document = document[step]
+        document[path[-1]] = copy.deepcopy(value)
+
+    return change
+
+
+def drop(name):
+    return lambda document: document.pop(name)
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (set_in("version", value=2), "kit version 2: this reads version 1; update it, or"),
+        (set_in("format", value="kit"), "not a kit: format is not scadgen-kit"),
+        (drop("ranges"), "not a sound kit: 'ranges' is missing; make it again"),
+        (drop("parts"), "not a sound kit: 'parts' is missing"),
+        (set_in("frame", value="round"), "frame = 'round': must be one of hexagonal, square"),
+        (set_in("values", "clearance", value=99), "clearance = 99 mm: must be 0 to"),
+        (set_in("values", "clearance", value="x"), "not a sound kit: "),
+        (set_in("values", "clearance", value=float("nan")), "not a sound kit: "),
+        (set_in("ranges", value=[]), "no range for side"),
+        (
+            set_in("parts", "peg", "triangles", 0, value=[0, 0, 0]),
+            "part peg: its triangles are not",
+        ),
+        (
+            set_in("parts", "peg", "triangles", 0, value=[0, 1, 99]),
+            "part peg: its triangles are not",
+        ),
+        (set_in("parts", "peg", "triangles", 0, value=[0, 1]), "not a sound kit: "),
+        (set_in("parts", "peg", "facets", value=[1]), "part peg: tables of the wrong shape"),
+        (set_in("parts", "peg", "points", "side", 0, value=[1]), "part peg: tables of the wrong"),
+        (set_in("parts", "peg", "points", value={}), "part peg: tables of the wrong shape"),
+        (set_in("parts", "peg", "points", "side", 0, 0, value="x"), "not a sound kit: "),
+        (set_in("parts", "peg", "points", "side", 0, 0, value=1e999), "not a finite number"),
+        (set_in("parts", "peg", "points", "length", value=[]), "moved by a parameter"),
+        (set_in("joint", 0, "part", value="cog"), "the joint has no part cog"),
+        (set_in("joint", 0, value=3), "not a sound kit: "),
+        (set_in("parts", value=3), "not a sound kit: "),
+    ],
+)
+def test_a_broken_kit_is_refused_in_one_line(change, says):
+    with pytest.raises(KitError) as refused:
+        parse_kit(broken(change))
+    assert says in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "3", None, "[" * 100000])
+def test_text_that_is_no_kit_is_refused_in_one_line(text):
+    text = dumps(the("hexagonal"))[:-100] if text is None else text
+    with pytest.raises(KitError, match=r"^not a (sound )?kit: [^\n]*$"):
+        parse_kit(text)
+
+
+def test_files_that_cannot_be_read_are_named(tmp_path):
+    with pytest.raises(KitError, match=r"^.*kit\.json: no kit can be read there \(No such file"):
+        read_kit(tmp_path / "kit.json")
+    (tmp_path / "kit.json").write_bytes(b"\xff")
+    with pytest.raises(KitError, match=r"kit\.json: not a kit: byte 0 is not UTF-8$"):
+        read_kit(tmp_path)
+    (tmp_path / "kit.json").write_text("{")
+    with pytest.raises(KitError, match=r"kit\.json: not a sound kit: truncated or not JSON"):
+        read_kit(tmp_path)
+
+
+def test_a_kit_is_read_from_its_folder(tmp_path):
+    (tmp_path / "kit.json").write_text(dumps(the("square")), encoding="utf-8")
+    data = read_kit(tmp_path)
+    assert (data.frame, data.key, data.values) == ("square", "loose", the("square").values)
