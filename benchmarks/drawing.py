@@ -14,7 +14,7 @@ from scipy.spatial import Voronoi
 from scadgen.emit.scad import scad
 from scadgen.joint.joint import site_curves
 from scadgen.joint.weave import Weave
-from scadgen.kit.build import VALENCE, Request, build
+from scadgen.kit.build import Request, build
 from scadgen.kit.model import Kit
 from scadgen.solid.affine import AffineSolid
 from scadgen.tools.openscad import render
@@ -105,7 +105,7 @@ def _with_booleans(kit: Kit) -> dict[str, str]:
 def _cells(kit: Kit) -> str:
     """The connector as the ring's part in a union of convex Voronoi cells, with no clearance."""
     weave = Weave(**{k: v for k, v in kit.weave.items() if k != "name"})
-    count, side = VALENCE[kit.frame], kit.values["side"]
+    count, side = kit.valence, kit.values["side"]
     edges = np.arange(count) * 2 * np.pi / count
     curves = site_curves(edges, weave, _CELLS)
     sites = [side * curve.points(np.linspace(-1, 1, _CELLS)) for curve in curves]

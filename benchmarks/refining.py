@@ -16,7 +16,7 @@ from scadgen.element.pieces import Piece
 from scadgen.element.squares import Key
 from scadgen.errors import GeometryError
 from scadgen.joint.joint import DETAILS, Detail, Joint, make_joint, site_curves
-from scadgen.joint.weave import BUILT_IN
+from scadgen.joint.weave import built_in
 from scadgen.kit.build import VALENCE
 from scadgen.solid.affine import AffineSolid, Floats
 from scadgen.solid.mesh import volume
@@ -51,7 +51,7 @@ def _made(frame: str, detail: Detail) -> Joint:
     edges = [2 * math.pi * n / count for n in range(count)]
     for extra in (0, 2, 4):
         try:
-            return make_joint(edges, BUILT_IN[frame], detail, extra)
+            return make_joint(edges, built_in(count, "fixed"), detail, extra)
         except GeometryError:
             if extra == 4:
                 raise

@@ -21,7 +21,7 @@ KINDS = [
 ]
 
 #: The built-in weave of each frame.
-WEAVES = {frame: BUILT_IN[frame] for frame in VALENCE}
+WEAVES = {frame: BUILT_IN[f"{count}-fixed"] for frame, count in VALENCE.items()}
 
 
 def named(kind):

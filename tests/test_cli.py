@@ -25,7 +25,7 @@ from scadgen.tools.stl import check_stl
 
 ROOT = Path(__file__).parent.parent
 DRAFT = ("--detail", "draft")
-WEAVE = {name: v for name, v in BUILT_IN["hexagonal"].as_dict().items() if name != "name"}
+WEAVE = {name: v for name, v in BUILT_IN["3-fixed"].as_dict().items() if name != "name"}
 
 
 @pytest.fixture
@@ -160,7 +160,7 @@ def test_kit_goes_into_a_folder_of_the_frames_name(run, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("name", sorted(BUILT_IN))
 def test_kit_takes_a_built_in_weave(name, run, tmp_path):
-    frame = name.split("-")[0]
+    frame = {"3": "hexagonal", "4": "square"}.get(name[0], "hexagonal")
     assert run("kit", frame, *DRAFT, "--weave", name, "-o", tmp_path / "kit")[0] == 0
     assert load(tmp_path / "kit").weave == BUILT_IN[name].as_dict()
 
@@ -327,7 +327,7 @@ BAD_KITS = [
     ("hexagonal", ("--peg-chamfer", "3"), "peg_chamfer = 3 mm: must be 0.1 to 1 mm"),
     ("hexagonal", ("--bore", "5"), "bore = 5 mm: must be 0.7 to 2.4 mm"),
     ("hexagonal", ("--key", "loose", "--peg-length", "3"), "peg_length = 3 mm: must be "),
-    ("hexagonal", ("--weave", "granny"), "weave 'granny': neither a file nor one of hexagonal"),
+    ("hexagonal", ("--weave", "granny"), "weave 'granny': neither a file nor one of 3-fixed"),
     ("hexagonal", ("--weave", "falls-apart.json"), "a connector falls apart into 3 pieces"),
     ("square", ("--weave", "slides.json"), "whole connectors lock: 1 parts can move"),
     ("square", ("--weave", "loses-footprint.json"), "weave loses-footprint: only "),

@@ -153,5 +153,5 @@ def test_counts_outside_the_range_are_refused(count: int) -> None:
 def test_unknown_key_and_small_valence_are_refused() -> None:
     with pytest.raises(InputError, match="key = 'glue': must be one of fixed, loose"):
         square(1, 1, key="glue")
-    with pytest.raises(InputError, match="valence = 2: must be at least 3"):
-        joint(2, "fixed")
+    with pytest.raises(InputError, match="valence = 1: must be at least 2"):
+        joint(1, "fixed")

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from scadgen.errors import InputError
+from scadgen.frame.placement import KEYS
 from scadgen.joint.weave import BUILT_IN, SiteCurve, Weave
 from scadgen.kit.build import VALENCE
 
@@ -57,7 +58,7 @@ def test_other_entries_are_refused(entries):
 
 
 def test_every_frame_has_a_built_in_weave():
-    assert set(VALENCE) <= set(BUILT_IN)
+    assert {f"{count}-{key}" for count in VALENCE.values() for key in KEYS} <= set(BUILT_IN)
     assert all(weave.name == name for name, weave in BUILT_IN.items())
 
 

@@ -14,7 +14,7 @@ from scadgen.errors import ScadgenError
 from scadgen.frame.placement import Placement
 from scadgen.joint.joint import DETAILS, Detail, Joint, check_footprint, make_joint
 from scadgen.joint.weave import Weave
-from scadgen.kit.build import VALENCE, Request, build
+from scadgen.kit.build import Request, build
 from scadgen.kit.model import Kit
 from scadgen.kit.store import dumps
 from scadgen.solid.affine import Floats, Ints
@@ -69,7 +69,7 @@ def same(kit: Kit) -> Result:
         {**kit.values},
         kit.command,
     )
-    equal = dumps(replace(build(request), verdicts=kit.verdicts)) == dumps(kit)
+    equal = dumps(replace(build(request), verdicts=kit.verdicts, ways=kit.ways)) == dumps(kit)
     return Result(
         "the parameters make this kit",
         equal,
@@ -117,7 +117,7 @@ def partition(kit: Kit) -> Iterator[Result]:
     whole, half = (
         volume(kit.parts[n].points(values), kit.parts[n].triangles) for n in ("connector", "half")
     )
-    count = VALENCE[kit.frame]
+    count = kit.valence
     domain = kit.figures["domain_volume_sides3"]
     off = abs(count * (whole + bore) / domain - 1)
     yield Result("connectors make up the domain", off < _VOLUME, f"{off:.1e} off", f"{_VOLUME:g}")
@@ -219,6 +219,6 @@ def _weave(kit: Kit) -> Weave:
 
 def joint_of(kit: Kit, detail: Detail) -> Joint:
     """The kit's joint at some detail, on the kit's own lattice."""
-    count = VALENCE[kit.frame]
+    count = kit.valence
     edges = [2 * math.pi * n / count for n in range(count)]
     return make_joint(edges, _weave(kit), detail, int(kit.figures["lattice_extra"]))

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from itertools import chain
 from pathlib import Path
 
-from scadgen.check import files, geometry, locking, rendered
+from scadgen.check import files, geometry, rendered
+from scadgen.check.proof import proofs
 from scadgen.check.result import Result
 from scadgen.kit.model import Kit
 
 __all__ = ["checks"]
 
 
-def checks(kit: Kit, source: Path, timeout: float) -> Iterator[Result]:
-    """Run all checks, one result after the other.
+def checks(
+    kit: Kit, source: Path, timeout: float, say: Callable[[str], None] = lambda _: None
+) -> dict[str, Iterator[Result]]:
+    """Prepare all checks.
 
     Parameters
     ----------
@@ -24,26 +28,32 @@ def checks(kit: Kit, source: Path, timeout: float) -> Iterator[Result]:
         Its folder.
     timeout
         Seconds that OpenSCAD may take for one drawing.
+    say
+        Told what takes long.
 
-    Raises
-    ------
-    ToolError
-        OpenSCAD is missing.
+    Returns
+    -------
+    checks
+        By what is checked, the checks, each made when its result is asked for.  Asking for
+        those of OpenSCAD raises a `ToolError` where it is missing.
     """
-    scad = source / f"{kit.frame}.scad"
-    yield from files.unchanged(kit, source)
-    yield geometry.same(kit)
-    yield from geometry.closed(kit)
-    yield from geometry.partition(kit)
-    yield geometry.footprint(kit)
-    yield from geometry.gaps(kit)
-    yield from geometry.sampling(kit)
-    yield locking.connectors_lock(kit)
-    yield locking.finer_connectors_lock(kit)
-    yield from locking.only_the_peg_moves(kit)
-    yield from locking.without_the_peg(kit)
-    yield locking.tightness(kit)
+    return {
+        "files": files.unchanged(kit, source),
+        "what the parameters make": (geometry.same(made) for made in (kit,)),
+        "solids": geometry.closed(kit),
+        "partition": geometry.partition(kit),
+        "footprint": (geometry.footprint(made) for made in (kit,)),
+        "gaps": geometry.gaps(kit),
+        "sampling": geometry.sampling(kit),
+        "proofs": (proof.result for proof in proofs(kit, say)),
+        "drawings": _drawings(kit, source / f"{kit.frame}.scad", timeout),
+    }
+
+
+def _drawings(kit: Kit, scad: Path, timeout: float) -> Iterator[Result]:
     with tempfile.TemporaryDirectory(prefix="scadgen-") as name:
         folder = Path(name)
-        yield from rendered.part_renders(kit, scad, folder, timeout)
-        yield from rendered.view_renders(scad, folder, timeout)
+        yield from chain(
+            rendered.part_renders(kit, scad, folder, timeout),
+            rendered.view_renders(scad, folder, timeout),
+        )

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from scadgen.cli.console import status, table, timeout_option
+from scadgen.cli.console import progress, table, timeout_option
 
 __all__ = ["check"]
 
@@ -18,7 +18,10 @@ __all__ = ["check"]
 @timeout_option
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def check(folder: Path, timeout: float, as_json: bool) -> int:  # noqa: FBT001
-    """Check a kit: solids, partition, footprint, gaps, sampling, and OpenSCAD's drawings.
+    """Check a kit.
+
+    Its files, solids, partition, footprint, gaps and sampling; that it locks, and on which
+    ways it comes apart; and OpenSCAD's drawings.
 
     Exit status 0 if all is good, 1 if anything is not.
     """
@@ -27,10 +30,12 @@ def check(folder: Path, timeout: float, as_json: bool) -> int:  # noqa: FBT001
 
     kit = load(folder)
     results = []
-    with status(f"checking {folder}") as say:
-        for result in checks(kit, folder, timeout):
-            results.append(result)
-            say(f"checking {folder}: {result.check}")
+    with progress(f"checking {folder}") as bar:
+        for what, found in bar.track(checks(kit, folder, timeout, bar.say).items()):
+            bar.say(what)
+            for result in found:
+                results.append(result)
+                bar.say(result.check)
     if as_json:
         click.echo(json.dumps([asdict(result) for result in results], indent=1))
     else:

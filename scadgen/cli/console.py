@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-__all__ = ["status", "table", "timeout_option"]
+if TYPE_CHECKING:
+    from rich.progress import Progress
+
+__all__ = ["Bar", "progress", "status", "table", "timeout_option"]
+
+T = TypeVar("T")
 
 
 def _seconds(_: click.Context, __: click.Parameter, value: float) -> float:
@@ -50,6 +55,53 @@ def status(text: str) -> Iterator[Callable[[str], None]]:
 
     with Console(stderr=True).status(text) as shown:
         yield shown.update
+
+
+class Bar:
+    """A progress bar on stderr, on a terminal only.
+
+    Parameters
+    ----------
+    text
+        What runs.
+    shown
+        What shows it; None where nobody looks.
+    """
+
+    def __init__(self, text: str, shown: Progress | None) -> None:
+        self._text, self._shown = text, shown
+        self._task = shown.add_task(text, total=None) if shown else None
+
+    def say(self, words: str) -> None:
+        """Say what runs now."""
+        if self._shown and self._task is not None:
+            self._shown.update(self._task, description=f"{self._text}: {words}")
+
+    def reach(self, share: float) -> None:
+        """Show what share of all is done."""
+        if self._shown and self._task is not None:
+            self._shown.update(self._task, total=1.0, completed=min(share, 1.0))
+
+    def track(self, things: Collection[T]) -> Iterator[T]:
+        """Give one thing after the other; the bar shows how many are done."""
+        for number, thing in enumerate(things):
+            self.reach(number / len(things))
+            yield thing
+        self.reach(1.0)
+
+
+@contextmanager
+def progress(text: str) -> Iterator[Bar]:
+    """Show a progress bar while something runs."""
+    if not sys.stderr.isatty():
+        yield Bar(text, None)
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as shown:
+        yield Bar(text, shown)
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import shlex
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -72,7 +71,7 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
     "--weave",
     metavar="NAME|FILE",
     help="A built-in weave, or a JSON file with ring_ratio, span, amplitude, bend and periods."
-    "  [default: the one of the frame's name]",
+    "  [default: the one for the joint's edges and the key]",
 )
 @_lengths
 @click.option(
@@ -101,7 +100,7 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
     scadgen kit hexagonal -o out/hexagonal
     scadgen kit square --rows 3 --columns 4 --side 8 --clearance 0.15 -o shelf
     """  # noqa: D301  click wants the character
-    from scadgen.check.locking import prove
+    from scadgen.check.proof import proved
     from scadgen.emit.folder import check_folder, write_kit
     from scadgen.kit.build import Request, build
     from scadgen.kit.store import summary
@@ -114,8 +113,7 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
     with status("computing the joint") as say:
         made = build(request)
         if not unchecked:
-            say("proving that the joint locks")
-            made = replace(made, verdicts=prove(made))
+            made = proved(made, lambda what: say(f"proving the joint: {what}"))
         write_kit(made, folder, progress=lambda file: say(f"writing {file}"))
     if as_json:
         click.echo(json.dumps({"folder": str(folder), **summary(made)}, indent=1))

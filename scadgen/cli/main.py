@@ -15,6 +15,7 @@ from scadgen.cli.export import export
 from scadgen.cli.interlock import interlock
 from scadgen.cli.kit import kit
 from scadgen.cli.render import render
+from scadgen.cli.tune import tune
 from scadgen.errors import ScadgenError
 
 __all__ = ["cli", "main"]
@@ -29,7 +30,7 @@ def cli() -> None:
     """Turn a planar frame into 3D-printable parts that interlock without glue or screws."""
 
 
-for command in (kit, export, render, check, interlock):
+for command in (kit, export, render, check, interlock, tune):
     cli.add_command(command)
 
 

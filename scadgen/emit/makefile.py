@@ -36,6 +36,7 @@ def makefile(kit: Kit) -> str:
             command=comment(kit.command),
             scad=f"{kit.frame}.scad",
             parts=list(kit.parts),
+            proved=bool(kit.verdicts),
         )
     )
 

@@ -141,7 +141,7 @@ def joint(valence: int, key: str) -> tuple[Placement, ...]:
     Parameters
     ----------
     valence
-        Number of edges at the vertex, at least 3.
+        Number of edges at the vertex, at least 2.
     key
         One of `KEYS`; both styles show the peg as a piece of its own.
 
@@ -155,8 +155,8 @@ def joint(valence: int, key: str) -> tuple[Placement, ...]:
     InputError
         If the valence or the key style is not one of those above.
     """
-    if valence < 3:
-        msg = f"valence = {valence}: must be at least 3"
+    if valence < 2:
+        msg = f"valence = {valence}: must be at least 2"
         raise InputError(msg)
     _check_key(key)
     ends = tuple(360.0 * k / valence for k in range(1, valence))

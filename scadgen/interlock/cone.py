@@ -19,8 +19,11 @@ __all__ = ["Walls", "nearest"]
 #: Distance of the grids' nodes and of the points, in sizes of the body.
 _CELL, _SPACING = 0.035, 0.07
 
-#: Nodes of a grid at most; beyond, its cells are wider.
-_NODES = 1.5e6
+#: The same for a closer look.
+_CLOSE_CELL, _CLOSE_SPACING = 0.015, 0.04
+
+#: Nodes of a grid at most, and for a closer look; beyond, its cells are wider.
+_NODES, _CLOSE_NODES = 1.5e6, 1.2e7
 
 #: How near a point has to be to count, how far points are kept in sight, and how fast one
 #: that is too near is made to recede, in sizes.
@@ -43,14 +46,20 @@ class Walls:
     ----------
     scene
         The body among the others.
+    close
+        Whether to look closely, which takes longer.
     """
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, *, close: bool = False) -> None:
         self.size = scene.size
-        self._points = _points(*scene.body, _SPACING * self.size) - scene.middle
-        self._others = _points(*scene.rest, _SPACING * self.size)
-        self._own = _field((scene.body[0] - scene.middle, scene.body[1]), self.size)
-        self._around = _field(scene.rest, self.size)
+        spacing, cell, nodes = (
+            (_CLOSE_SPACING, _CLOSE_CELL, _CLOSE_NODES) if close else (_SPACING, _CELL, _NODES)
+        )
+        self._points = _points(*scene.body, spacing * self.size) - scene.middle
+        self._others = _points(*scene.rest, spacing * self.size)
+        body = scene.body[0] - scene.middle, scene.body[1]
+        self._own = _field(body, cell * self.size, nodes)
+        self._around = _field(scene.rest, cell * self.size, nodes)
         self._seen: tuple[Ints, Ints] = (np.arange(0), np.arange(0))
         self._from: Pose | None = None
         self._reach = float(np.linalg.norm(self._points, axis=1).max())
@@ -169,11 +178,10 @@ def _shortest(rows: Floats, least: Floats) -> Floats | None:
     return np.asarray(-residual[:6] / residual[6] * scale)
 
 
-def _field(mesh: Mesh, size: float) -> Field:
-    """A mesh's field, its cells as fine as its box allows."""
+def _field(mesh: Mesh, cell: float, nodes: float) -> Field:
+    """A mesh's field, its cells as fine as wanted or as its box allows."""
     box = np.ptp(mesh[0], axis=0)
-    cell = max(_CELL * size, float((box.prod() / _NODES) ** (1 / 3)))
-    return Field(*mesh, cell)
+    return Field(*mesh, max(cell, float((box.prod() / nodes) ** (1 / 3))))
 
 
 def _points(points: Floats, triangles: Ints, spacing: float) -> Floats:

@@ -1,7 +1,10 @@
-"""The way of a rigid body out of others, and its check.
+"""The way of a rigid body out of others, and its checks.
 
-The check shares no code with the search: it places the solids at poses so close to each other
+They share no code with the search.  `replay` places the solids at poses so close to each other
 that no point moves farther than a step between them, and measures what they have in common.
+`narrowest` proves that they touch nowhere, also between the poses: a body that is d away from
+all others may move each of its points by d, and meets none of them (conservative advancement:
+Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, section 2.3).
 """
 
 from __future__ import annotations
@@ -21,7 +24,7 @@ from scadgen.solid.affine import Floats
 if TYPE_CHECKING:
     from manifold3d import Manifold
 
-__all__ = ["Path", "common_volumes", "replay", "united"]
+__all__ = ["Path", "common_volumes", "narrowest", "replay", "united"]
 
 #: How far a pose may be from a rigid motion; rounding of products of some thousand matrices.
 _RIGID = 1e-9
@@ -44,6 +47,59 @@ class Path:
     poses: Floats
     middle: Floats
 
+    @classmethod
+    def through(cls, steps: Floats, middle: Floats) -> Path:
+        """The path through poses told by their steps from the body's place.
+
+        Parameters
+        ----------
+        steps
+            ``(k, 6) float``: how far the middle is from its place, and the rotation vector;
+            zeros first.
+        middle
+            ``(3,) float``.
+        """
+        poses = np.tile(np.eye(4), (len(steps), 1, 1))
+        poses[:, :3, :3] = Rotation.from_rotvec(steps[:, 3:]).as_matrix()
+        poses[:, :3, 3] = middle + steps[:, :3] - poses[:, :3, :3] @ middle
+        poses[0] = np.eye(4)
+        return cls(poses, middle)
+
+    def steps(self) -> Floats:
+        """The poses as `through` takes them."""
+        shifts = self._centres() - self.middle
+        return np.hstack([shifts, Rotation.from_matrix(self.poses[:, :3, :3]).as_rotvec()])
+
+    def scaled(self, factor: float) -> Path:
+        """The same path for a body `factor` times the size."""
+        poses = self.poses.copy()
+        poses[:, :3, 3] *= factor
+        return Path(poses, self.middle * factor)
+
+    def lengths(self, reach: float) -> Floats:
+        """How far points move at most between a pose and the next.
+
+        Parameters
+        ----------
+        reach
+            Distance of the body's farthest point from its middle, in mm.
+
+        Returns
+        -------
+        lengths
+            ``(k - 1,) float``, mm.
+        """
+        turns = Rotation.from_matrix(self.poses[:, :3, :3])
+        moved: Floats = np.linalg.norm(np.diff(self._centres(), axis=0), axis=1)
+        if len(self.poses) > 1:
+            moved += reach * (turns[:-1].inv() * turns[1:]).magnitude()
+        return moved
+
+    def _centres(self) -> Floats:
+        """Where the middle is at each pose."""
+        centres: Floats = self.poses[:, :3, :3] @ self.middle + self.poses[:, :3, 3]
+        return centres
+
     def at(self, times: Floats) -> Floats:
         """Poses between the poses.
 
@@ -58,7 +114,7 @@ class Path:
             ``(m, 4, 4) float``.
         """
         turns = Rotation.from_matrix(self.poses[:, :3, :3])
-        centres = self.poses[:, :3, :3] @ self.middle + self.poses[:, :3, 3]
+        centres = self._centres()
         start = np.clip(np.floor(times).astype(np.int64), 0, max(len(self.poses) - 2, 0))
         end = np.minimum(start + 1, len(self.poses) - 1)
         share = np.asarray(times - start)
@@ -88,11 +144,7 @@ class Path:
         poses
             ``(m, 4, 4) float``.
         """
-        centres = self.poses[:, :3, :3] @ self.middle + self.poses[:, :3, 3]
-        turns = Rotation.from_matrix(self.poses[:, :3, :3])
-        moved = np.linalg.norm(np.diff(centres, axis=0), axis=1)
-        moved += reach * (turns[:-1].inv() * turns[1:]).magnitude() if len(turns) > 1 else 0
-        counts = np.maximum(np.ceil(moved / step).astype(np.int64), 1)
+        counts = np.maximum(np.ceil(self.lengths(reach) / step).astype(np.int64), 1)
         times = [n + np.arange(count) / count for n, count in enumerate(counts)]
         return self.at(np.concatenate([*times, [len(self.poses) - 1.0]]))
 
@@ -127,22 +179,83 @@ def replay(path: Path, moving: Sequence[Mesh], fixed: Sequence[Mesh], step: floa
     if not 0 < step < math.inf:
         msg = f"step = {step} mm: must be a finite number above 0"
         raise InputError(msg)
+    if not _leads_out(path, moving, fixed):
+        return math.inf
+    poses = path.dense(_reach(path, moving), step)
+    return max(common_volumes(poses, united(moving), united(fixed)))
+
+
+def narrowest(
+    path: Path, moving: Sequence[Mesh], fixed: Sequence[Mesh], *, least: float, look: float
+) -> float:
+    """Smallest gap on a moving body's way out past fixed ones, at the poses of a proof.
+
+    Parameters
+    ----------
+    path
+        The way.
+    moving
+        The meshes of the body, closed and oriented.
+    fixed
+        The meshes of all that stays.
+    least
+        Gap below which the proof is given up, in mm, above 0.
+    look
+        Gap beyond which it need not be known, in mm, at least `least`; a tight one is fast.
+
+    Returns
+    -------
+    gap
+        In mm, at least `least`: then the body touches nothing on all its way.  0 where that
+        is not proven: it comes nearer than `least`, or it is no way out.
+
+    Raises
+    ------
+    InputError
+        `least` and `look` are not as above.
+    InvariantError
+        If one of the meshes is not a solid.
+    """
+    if not 0 < least <= look < math.inf:
+        msg = f"least = {least} mm, look = {look} mm: must be above 0, and look not below least"
+        raise InputError(msg)
+    if not _leads_out(path, moving, fixed):
+        return 0.0
+    body, rest = united(moving), united(fixed)
+    lengths = path.lengths(_reach(path, moving))
+    ends = np.concatenate([[0.0], np.cumsum(lengths)])
+    gone, worst = 0.0, look
+    while True:
+        time = np.interp(gone, ends, np.arange(len(ends)))
+        gap = float(body.transform(path.at(np.array([time]))[0, :3]).min_gap(rest, look))
+        worst = min(worst, gap)
+        if gap < least:
+            return 0.0
+        if gone >= ends[-1]:
+            return worst
+        gone = min(gone + gap, float(ends[-1]))
+
+
+def _leads_out(path: Path, moving: Sequence[Mesh], fixed: Sequence[Mesh]) -> bool:
+    """Whether it begins where the body is, is rigid, and its end is outside all hulls."""
     poses = np.asarray(path.poses)
     if len(poses) < 2 or not np.isfinite(poses).all() or (poses[0] != np.eye(4)).any():
-        return math.inf
+        return False
     turns = poses[:, :3, :3]
     if (
         np.abs(turns @ turns.transpose(0, 2, 1) - np.eye(3)).max() > _RIGID
         or np.linalg.det(turns).min() < 0
         or (poses[:, 3] != [0, 0, 0, 1]).any()
     ):
-        return math.inf
+        return False
     body, rest = united(moving), united(fixed)
-    if not (body.hull().transform(poses[-1, :3]) ^ rest.hull()).volume() <= 0:
-        return math.inf
+    return bool((body.hull().transform(poses[-1, :3]) ^ rest.hull()).volume() <= 0)
+
+
+def _reach(path: Path, moving: Sequence[Mesh]) -> float:
+    """Distance of the body's farthest point from its middle."""
     points = np.concatenate([p for p, _ in moving])
-    reach = float(np.linalg.norm(points - path.middle, axis=1).max())
-    return max(common_volumes(path.dense(reach, step), body, rest))
+    return float(np.linalg.norm(points - path.middle, axis=1).max())
 
 
 def common_volumes(poses: Floats, body: Manifold, rest: Manifold) -> Iterator[float]:

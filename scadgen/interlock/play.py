@@ -6,20 +6,32 @@ a part then moves in a direction is a linear program.  To first order it is prop
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Sequence
+
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from scadgen.errors import InputError
 from scadgen.interlock.assembly import Assembly, extreme_rows
+from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.program import farthest
-from scadgen.solid.affine import Floats, Ints
+from scadgen.solid.affine import Floats
+from scadgen.solid.gap import overlap_volume
 
-__all__ = ["play"]
+__all__ = ["farthest_motion", "measured", "play"]
 
 #: Rows to add at most in a round, for each unknown.
 _ADD = 5
 
 #: How far a row may be violated, in gaps.
 _TOLERANCE = 1e-6
+
+#: Share of a motion up to which it is followed, and how finely its end is found.
+_MOST, _FINE = 2.0, 2e-3
+
+#: Shared volume, in cubes of the gap, that is rounding.
+_NONE = 1e-6
 
 
 def play(assembly: Assembly, part: int, point: Floats) -> Floats:
@@ -47,36 +59,105 @@ def play(assembly: Assembly, part: int, point: Floats) -> Floats:
     ToolError
         The solver gives no answer: its status.
     """
+    travel = np.empty((2, 3))
+    for axis in range(3):
+        for side in range(2):
+            direction = (2 * side - 1) * np.eye(3)[axis]
+            travel[side, axis], _ = farthest_motion(assembly, part, point, direction)
+    return travel
+
+
+def farthest_motion(
+    assembly: Assembly, part: int, point: Floats, direction: Floats
+) -> tuple[float, Floats]:
+    """Farthest a point of a part moves in a direction, per unit of gap, and how.
+
+    Parameters
+    ----------
+    assembly, part, point
+        As for `play`.
+    direction
+        ``(3,) float``, a unit vector.
+
+    Returns
+    -------
+    travel
+        Infinite where the part is free to go.
+    steps
+        ``(parts, 6) float``: each part's translation and rotation vector about its middle,
+        per unit of gap; zeros where the travel is infinite.
+
+    Raises
+    ------
+    InputError
+        The part is held, or there is none of that number.
+    ToolError
+        The solver gives no answer: its status.
+    """
     if part not in assembly.free:
         msg = f"part = {part}: must be one that is not held: {list(assembly.free)}"
         raise InputError(msg)
     arm = (point - assembly.middles[part]) / assembly.sizes[part]
     first = 6 * assembly.free.index(part)
-    travel = np.empty((2, 3))
-    chosen = extreme_rows(assembly)
-    for axis in range(3):
-        for side in range(2):
-            direction = (2 * side - 1) * np.eye(3)[axis]
-            goal = np.zeros(assembly.rows.shape[1])
-            goal[first : first + 6] = [*direction, *np.cross(arm, direction)]
-            travel[side, axis], chosen = _farthest(assembly, goal, chosen)
-    return travel
+    goal = np.zeros(assembly.rows.shape[1])
+    goal[first : first + 6] = [*direction, *np.cross(arm, direction)]
+    steps = np.zeros((len(assembly.middles), 6))
+    x = _farthest(assembly, goal)
+    if x is None:
+        return np.inf, steps
+    steps[list(assembly.free)] = x.reshape(-1, 6)
+    steps[:, 3:] /= assembly.sizes[:, None]
+    return float(goal @ x), steps
 
 
-def _farthest(assembly: Assembly, goal: Floats, chosen: Ints) -> tuple[float, Ints]:
-    """The largest goal . x with A x >= -1, and the rows that it took."""
-    count = assembly.rows.shape[0]
+def measured(meshes: Sequence[Mesh], middles: Floats, steps: Floats, gap: float) -> float:
+    """How far parts that have a gap really go along a motion before two of them overlap.
+
+    Parameters
+    ----------
+    meshes
+        The parts as they are with that gap.
+    middles
+        ``(parts, 3) float``: what they turn about.
+    steps
+        ``(parts, 6) float``: a motion per unit of gap, as `farthest_motion` gives it.
+    gap
+        The gap, in mm.
+
+    Returns
+    -------
+    share
+        Of the motion for that gap: 1 where the first order tells all; at most `_MOST`.
+    """
+    low, high = 0.0, _MOST
+    while high - low > _FINE:
+        share = (low + high) / 2
+        moved = [
+            ((points - middle) @ Rotation.from_rotvec(turn).as_matrix().T + middle + shift, faces)
+            for (points, faces), middle, shift, turn in zip(
+                meshes, middles, *np.split(share * gap * steps, 2, axis=1), strict=True
+            )
+        ]
+        pairs = itertools.combinations(moved, 2)
+        clear = all(overlap_volume(*a, *b) <= _NONE * gap**3 for a, b in pairs)
+        low, high = (share, high) if clear else (low, share)
+    return low
+
+
+def _farthest(assembly: Assembly, goal: Floats) -> Floats | None:
+    """The x with A x >= -1 that goal . x is largest for; None where it has no end."""
+    chosen, count = extreme_rows(assembly), assembly.rows.shape[0]
     while True:
         found = farthest(goal, assembly.rows[chosen], 1.0, np.inf)
         if found is None:
             missing = np.setdiff1d(np.arange(count), chosen)
             if not len(missing):
-                return np.inf, chosen
+                return None
             chosen = np.union1d(chosen, missing[:: max(1, len(missing) // max(len(chosen), 1))])
             continue
         separation = assembly.rows @ found.x
         violated = np.flatnonzero(separation < -1 - _TOLERANCE)
         if not len(violated):
-            return float(goal @ found.x), chosen
+            return found.x
         worst = violated[np.argsort(separation[violated], kind="stable")][: _ADD * len(goal)]
         chosen = np.union1d(chosen, worst)

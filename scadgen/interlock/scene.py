@@ -71,6 +71,8 @@ class Scene:
         ``(3,) float``: the middle of the body's surface, mm.
     size
         Root mean square distance of the body's surface from it, in mm: the unit of motions.
+    gap
+        Smallest gap at the start, in mm; at most `size`.
     step
         Farthest that a point moves between two poses that are looked at, in mm.
     rounding
@@ -98,9 +100,9 @@ class Scene:
         spread = ((corners - self.middle) ** 2).sum(axis=2).mean(axis=1)
         self.size = math.sqrt(float(np.average(spread, weights=areas)))
         self.rounding = _ROUNDING * float(self._body.volume())
-        gap = float(self._body.min_gap(self._rest, self.size))
-        self.step = float(np.clip(_OF_GAP * gap, _LEAST_STEP * self.size, _STEP * self.size))
-        self._keep = self.step / 2 if gap >= self.step else 0.0
+        self.gap = float(self._body.min_gap(self._rest, self.size))
+        self.step = float(np.clip(_OF_GAP * self.gap, _LEAST_STEP * self.size, _STEP * self.size))
+        self._keep = self.step / 2 if self.gap >= self.step else 0.0
         normals = np.concatenate([_faces(self.body), _faces(self.rest)])
         self.normals = _distinct(np.concatenate([normals, -normals]))
         self.directions = _distinct(np.concatenate([self.normals, _all_round()]))

@@ -17,10 +17,10 @@ from scipy.spatial import cKDTree
 from scadgen.errors import InputError
 from scadgen.solid.affine import Floats
 
-__all__ = ["BUILT_IN", "SiteCurve", "Weave"]
+__all__ = ["BUILT_IN", "LIMITS", "SiteCurve", "Weave", "built_in"]
 
 #: What each weave parameter may be: (low, high).
-_LIMITS: Mapping[str, tuple[float, float]] = {
+LIMITS: Mapping[str, tuple[float, float]] = {
     "ring_ratio": (0.8, 8.0),
     "span": (0.1, 1.5),
     "amplitude": (0.0, 1.0),
@@ -66,7 +66,7 @@ class Weave:
 
     def __post_init__(self) -> None:
         """Refuse what no curve can be made of."""
-        for key, (low, high) in _LIMITS.items():
+        for key, (low, high) in LIMITS.items():
             value = getattr(self, key)
             number = isinstance(value, int | float) and not isinstance(value, bool)
             if not number or not low <= value <= high:
@@ -87,6 +87,11 @@ class Weave:
             msg = f"weave {name}: must be a JSON object with {', '.join(sorted(wanted))}"
             raise InputError(msg)
         return cls(**{key: entries[key] for key in wanted}, name=name)
+
+    @property
+    def shape(self) -> tuple[float, float, float, float, float]:
+        """The parameters without the name, in the order above."""
+        return self.ring_ratio, self.span, self.amplitude, self.bend, self.periods
 
     def as_dict(self) -> dict[str, float | str]:
         """Name and parameters, as JSON writes them."""
@@ -193,13 +198,31 @@ class SiteCurve:
         return distance, away / np.maximum(distance, np.finfo(float).tiny)[:, None]
 
 
-#: Weaves chosen by their figures, by frame; see the table in ``docs/geometry.md``.
+#: The weaves of regular joints, by number of edges and key style: the tightest that a search
+#: found with arms that print; see the table in ``docs/geometry.md``.
 BUILT_IN: Mapping[str, Weave] = MappingProxyType(
     {
         w.name: w
         for w in (
-            Weave(1.583, 0.892, 0.354, 0.674, 1.317, name="hexagonal"),
-            Weave(2.089, 0.843, 0.406, 0.578, 1.4, name="square"),
+            Weave(1.583, 0.892, 0.354, 0.674, 1.317, name="3-fixed"),
+            Weave(1.583, 0.892, 0.354, 0.674, 1.317, name="3-loose"),
+            Weave(2.089, 0.843, 0.406, 0.578, 1.4, name="4-fixed"),
+            Weave(2.089, 0.843, 0.406, 0.578, 1.4, name="4-loose"),
         )
     }
 )
+
+
+def built_in(valence: int, key: str) -> Weave:
+    """The built-in weave of a regular joint.
+
+    Raises
+    ------
+    InputError
+        There is none.
+    """
+    name = f"{valence}-{key}"
+    if name not in BUILT_IN:
+        msg = f"weave {name}: none is built in; must be one of {', '.join(BUILT_IN)}"
+        raise InputError(msg)
+    return BUILT_IN[name]

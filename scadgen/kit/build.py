@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -15,19 +15,19 @@ from scadgen.element.squares import Key
 from scadgen.errors import GeometryError, InputError, InvariantError, ScadgenError
 from scadgen.frame.layout import LAYOUTS, joint
 from scadgen.frame.placement import KEYS
-from scadgen.joint.joint import DETAILS, Detail, Joint, check_footprint, make_joint, site_curves
+from scadgen.joint.joint import DETAILS, Joint, check_footprint, make_joint, site_curves
 from scadgen.joint.lattice import make_lattice
 from scadgen.joint.pieces import SPLIT
 from scadgen.joint.recede import recede
 from scadgen.joint.territory import arm, belongs
-from scadgen.joint.weave import BUILT_IN, Weave
+from scadgen.joint.weave import Weave, built_in
 from scadgen.kit.model import Kit
 from scadgen.kit.ranges import WALL, check_values, ranges
 from scadgen.solid.affine import PARAMETERS, AffineSolid, Range
 from scadgen.solid.mesh import solid_faults
 from scadgen.solid.sweep import safe_share
 
-__all__ = ["VALENCE", "Request", "build"]
+__all__ = ["VALENCE", "Request", "build", "build_joint"]
 
 #: Edges at each vertex of the frames.
 VALENCE: Mapping[str, int] = MappingProxyType({"hexagonal": 3, "square": 4})
@@ -64,7 +64,7 @@ class Request:
     detail
         Name of a level of `DETAILS`.
     weave
-        The weave; by default the built-in one for the frame.
+        The weave; by default the built-in one for the frame's joints and the key style.
     values
         Live parameters, in mm; those not given follow from the side.  A bore above zero
         makes a bored kit.
@@ -105,7 +105,12 @@ class Request:
     @property
     def chosen_weave(self) -> Weave:
         """The weave given, or the built-in one."""
-        return self.weave or BUILT_IN[self.frame]
+        return self.weave or built_in(self.valence, self.key)
+
+    @property
+    def valence(self) -> int:
+        """Edges at each vertex."""
+        return VALENCE[self.frame]
 
 
 def build(request: Request) -> Kit:
@@ -122,8 +127,36 @@ def build(request: Request) -> Kit:
         if not 0 <= value <= _LONGEST:
             msg = f"{name} = {value:g} mm: must be a number from 0 to {_LONGEST:g}"
             raise InputError(msg)
+    weave = request.chosen_weave
     bored = request.values.get("bore", 0.0) > 0
-    pieces = _best_pieces(request, DETAILS[request.detail], bored=bored)
+    pieces = _best_pieces(request.valence, weave, request.key, request.detail, bored=bored)
+    return _kit(pieces, request)
+
+
+def build_joint(valence: int, weave: Weave, key: str, detail: str) -> Kit:
+    """Make the kit of a single regular joint.
+
+    Its frame is called ``joint`` and has no layout: such a kit is there to be judged.
+
+    Parameters
+    ----------
+    valence
+        Number of edges, at least 2.
+    weave, key, detail
+        As for `Request`.
+
+    Raises
+    ------
+    GeometryError
+        The weave makes no sound pieces.
+    """
+    request = Request("hexagonal", key, 1, 1, detail, weave)
+    pieces = _best_pieces(valence, weave, key, detail, bored=False)
+    return replace(_kit(pieces, request), frame="joint")
+
+
+def _kit(pieces: _Pieces, request: Request) -> Kit:
+    """All of a kit, from its pieces."""
     limits = ranges(pieces.key, pieces.clearance_limit, pieces.hole)
     # All other defaults are shares of the side.
     check_values([r for r in limits if r.parameter == "side"], {"side": 10.0, **request.values})
@@ -140,7 +173,7 @@ def build(request: Request) -> Kit:
         values=values,
         ranges=limits,
         parts=_parts(pieces),
-        joint=joint(VALENCE[request.frame], request.key),
+        joint=joint(len(pieces.joint.edges), request.key),
         figures=_figures(pieces),
     )
 
@@ -167,11 +200,9 @@ class _Pieces:
         return float(self.key.pad + np.abs(points[ahead, 0]).min())
 
 
-def _best_pieces(request: Request, detail: Detail, *, bored: bool) -> _Pieces:
+def _best_pieces(valence: int, weave: Weave, style: str, level: str, *, bored: bool) -> _Pieces:
     """Pieces on the first lattice that lets them draw back enough, or else the furthest."""
-    count = VALENCE[request.frame]
-    edges = [2 * math.pi * n / count for n in range(count)]
-    weave = request.chosen_weave
+    edges, detail = [2 * math.pi * n / valence for n in range(valence)], DETAILS[level]
     probe = make_lattice(edges, weave.ring_ratio, detail.cells)
     check_footprint(probe, site_curves(probe.edges, weave, detail.samples), 0)
     best: _Pieces | None = None
@@ -179,7 +210,7 @@ def _best_pieces(request: Request, detail: Detail, *, bored: bool) -> _Pieces:
     for extra in _LATTICES:
         try:
             made = make_joint(edges, weave, detail, extra)
-            found = _pieces(made, request.key, extra, bored=bored)
+            found = _pieces(made, style, extra, bored=bored)
         except (GeometryError, InvariantError) as error:
             refusal = refusal or error
             continue

@@ -9,9 +9,30 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from scadgen.frame.placement import Placement
+from scadgen.interlock.path import Path
 from scadgen.solid.affine import AffineSolid, Range
 
-__all__ = ["Kit"]
+__all__ = ["Kit", "Way"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Way:
+    """The way of some pieces out of a joint.
+
+    Parameters
+    ----------
+    name
+        What comes out.
+    moving
+        Numbers, in the kit's `joint`, of the pieces that move as one; with their tubes, those
+        that have one.
+    path
+        The motion, in sides.
+    """
+
+    name: str
+    moving: tuple[int, ...]
+    path: Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +65,8 @@ class Kit:
         What was measured on the kit, by name; plain numbers with their unit in the name.
     verdicts
         What was proved of its joint, by name; empty for a kit that was not checked.
+    ways
+        The ways on which the pieces of its joint come apart, in order; likewise.
     """
 
     frame: str
@@ -59,3 +82,9 @@ class Kit:
     joint: tuple[Placement, ...]
     figures: Mapping[str, float]
     verdicts: Mapping[str, str] = field(default_factory=dict)
+    ways: tuple[Way, ...] = ()
+
+    @property
+    def valence(self) -> int:
+        """Number of edges at a vertex."""
+        return 1 + sum(place.part == "connector" for place in self.joint)

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import json
 import math
+import pathlib
 from collections.abc import Mapping
 from importlib import resources
-from pathlib import Path
 from typing import Any, NoReturn
 
 import numpy as np
@@ -19,16 +19,30 @@ from scadgen import __version__
 from scadgen.errors import InputError, InvariantError, KitError
 from scadgen.frame.layout import LAYOUTS, bill, joint
 from scadgen.frame.placement import Placement
+from scadgen.interlock.path import Path
 from scadgen.kit.build import VALENCE
-from scadgen.kit.model import Kit
+from scadgen.kit.model import Kit, Way
 from scadgen.kit.ranges import check_values
 from scadgen.solid.affine import PARAMETERS, AffineSolid, Linear, Range
 from scadgen.solid.mesh import edge_faults, volume
 
-__all__ = ["FORMAT", "VERSION", "dumps", "load", "loads", "summary"]
+__all__ = [
+    "FORMAT",
+    "VERSION",
+    "WAY_DECIMALS",
+    "dumps",
+    "load",
+    "loads",
+    "read_way",
+    "summary",
+    "way_entry",
+]
 
 FORMAT = "scadgen-kit"
 VERSION = 1
+
+#: Decimals of a way's numbers, in sides and radians.
+WAY_DECIMALS = 6
 
 
 def dumps(kit: Kit) -> str:
@@ -52,6 +66,7 @@ def dumps(kit: Kit) -> str:
             {"part": p.part, "at": list(p.at), "turn": p.turn, "flip": p.flip, "role": p.role}
             for p in kit.joint
         ],
+        "ways": [way_entry(way) for way in kit.ways],
     }
     head = json.dumps(document, indent=1, allow_nan=False).removesuffix("\n}")
     parts = ",\n".join(
@@ -73,8 +88,35 @@ def summary(kit: Kit) -> dict[str, Any]:
         "values": dict(kit.values),
         "bill": bill(LAYOUTS[kit.frame](kit.rows, kit.columns, kit.key)),
         "figures": dict(kit.figures),
+        "proved": bool(kit.verdicts),
         "verdicts": dict(kit.verdicts),
     }
+
+
+def way_entry(way: Way) -> dict[str, Any]:
+    """A way as JSON values, to a millionth of a side."""
+    return {
+        "name": way.name,
+        "moving": list(way.moving),
+        "middle": (np.round(way.path.middle, WAY_DECIMALS) + 0.0).tolist(),
+        "steps": (np.round(way.path.steps(), WAY_DECIMALS) + 0.0).tolist(),
+    }
+
+
+def read_way(entry: Mapping[str, Any]) -> Way:
+    """A way from JSON values.
+
+    Raises
+    ------
+    ValueError
+        Its numbers are not a motion.
+    """
+    steps, middle = (np.array(entry[name], dtype=np.float64) for name in ("steps", "middle"))
+    finite = np.isfinite(steps).all() and np.isfinite(middle).all()
+    if steps.ndim != 2 or steps.shape[1] != 6 or middle.shape != (3,) or not finite:
+        msg = f"way {entry['name']!r}: not a list of six numbers each"
+        raise ValueError(msg)
+    return Way(entry["name"], tuple(entry["moving"]), Path.through(steps, middle))
 
 
 def _linear(linear: Linear) -> dict[str, Any]:
@@ -90,7 +132,7 @@ def _solid(solid: AffineSolid) -> dict[str, Any]:
     }
 
 
-def load(folder: Path) -> Kit:
+def load(folder: pathlib.Path) -> Kit:
     """Read the kit in a folder.
 
     Raises
@@ -153,6 +195,13 @@ def _check_sense(kit: Kit, document: dict[str, Any]) -> None:
     if document["bill"] != summary(kit)["bill"]:
         msg = "the bill is not the frame's"
         raise ValueError(msg)
+    if document["proved"] != bool(kit.verdicts):
+        msg = "it says that it is proved, or not, and the verdicts say otherwise"
+        raise ValueError(msg)
+    for way in kit.ways:
+        if not {*way.moving} < {*range(len(kit.joint))}:
+            msg = f"way {way.name!r}: moves pieces that the joint lacks"
+            raise ValueError(msg)
     for name, solid in kit.parts.items():
         if not {*solid.coefficients} <= {*kit.values}:
             msg = f"part {name}: moved by a parameter that the kit lacks"
@@ -230,6 +279,7 @@ def _kit(document: dict[str, Any]) -> Kit:
         ),
         figures=document["figures"],
         verdicts=document["verdicts"],
+        ways=tuple(read_way(entry) for entry in document["ways"]),
     )
 
 

@@ -1,0 +1,116 @@
+"""``scadgen tune``: search a better weave."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from scadgen.cli.console import progress, table
+from scadgen.errors import InputError
+
+if TYPE_CHECKING:
+    from scadgen.tune.search import Search
+
+__all__ = ["tune"]
+
+_FILE = click.Path(path_type=Path)
+
+
+@click.command(short_help="Search a better weave.")
+@click.option("--valence", default=3, show_default=True, metavar="N", help="Edges at the joint.")
+@click.option("--key", default="fixed", show_default=True, metavar="fixed|loose", help="Key style.")
+@click.option(
+    "--arm",
+    default=0.2,
+    show_default=True,
+    metavar="SIDES",
+    help="Thinnest section that the connectors' arms may have.",
+)
+@click.option(
+    "--budget",
+    default=600.0,
+    show_default=True,
+    metavar="S",
+    help="Seconds to search.",
+)
+@click.option("--seed", default=1, show_default=True, help="The same finds the same.")
+@click.option("--jobs", type=int, metavar="N", help="Processes.  [default: one a core]")
+@click.option(
+    "--record",
+    type=_FILE,
+    metavar="FILE",
+    help="Write down all that is found; one that is there is gone on with.",
+)
+@click.option(
+    "-o", "--output", type=_FILE, help="Write the tightest weave for scadgen kit --weave."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print the weaves as JSON.")
+def tune(  # noqa: PLR0913, PLR0917  one argument an option
+    valence: int,
+    key: str,
+    arm: float,
+    budget: float,
+    seed: int,
+    jobs: int | None,
+    record: Path | None,
+    output: Path | None,
+    as_json: bool,  # noqa: FBT001  click passes flags so
+) -> int:
+    """Search the weaves of a regular joint for the least play.
+
+    Prints those that no other beats both in play and in thickness of the arms.  Each of them
+    is proved as scadgen kit proves a joint: it locks, also at twice the samples, comes apart
+    in this key style, and its connectors own all of their tubes' faces.
+
+    Exit status 0 if one was found, 1 if none.
+
+    \b
+    scadgen tune --valence 5 --budget 1200 --record five.jsonl -o five.json
+    scadgen kit hexagonal --weave tight.json
+    """  # noqa: D301  click wants the character
+    from scadgen.joint.weave import Weave
+    from scadgen.tune.judge import Wish
+    from scadgen.tune.record import Record
+    from scadgen.tune.run import rounds, start
+    from scadgen.tune.search import Search
+
+    if jobs is not None and jobs < 1:
+        msg = f"jobs = {jobs}: must be at least 1"
+        raise InputError(msg)
+    if not budget > 0:
+        msg = f"budget = {budget:g} s: must be above 0"
+        raise InputError(msg)
+    if output and output.is_dir():
+        msg = f"{str(output)!r}: is a folder; name a file"
+        raise InputError(msg)
+    wish = Wish(valence, key, arm)
+    search = Search(wish, seed, Record(record, wish, seed))
+    with progress("tuning") as bar:
+        for gone in rounds(search, start(valence), budget, jobs):
+            bar.reach(gone / budget)
+            bar.say(_state(search))
+    found = [(Weave(*shape, name=f"tuned-{valence}-{key}"), f) for shape, f in search.front]
+    if output and found:
+        output.write_text(json.dumps(found[0][0].as_dict(), indent=1) + "\n", encoding="utf-8")
+    if as_json:
+        rows = [{**w.as_dict(), "play": f.play, "arm": f.arm} for w, f in found]
+        click.echo(json.dumps(rows, indent=1))
+    else:
+        lines = [(f"{f.play:.1f}", f"{f.arm:.2f}", *map(str, w.shape)) for w, f in found]
+        if lines:
+            table(("play", "arm", "ring ratio", "span", "amplitude", "bend", "periods"), lines)
+        click.echo(_state(search))
+    return 0 if found else 1
+
+
+def _state(search: Search) -> str:
+    """How far a search has come, in a line."""
+    lock = sum(not found.refused for found in search.looked.values())
+    best = f", least play {search.front[0][1].play:.1f}" if search.front else ""
+    return (
+        f"{len(search.looked)} weaves looked at, {lock} lock, "
+        f"{len(search.proved)} taken to proof, {len(search.front)} on the front{best}"
+    )

@@ -1,0 +1,185 @@
+"""Joints come apart on ways that are proved again, and kits carry them."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from kits import kit, mesh, regular
+from shapes import box
+
+import scadgen.joint.joint as joints
+from scadgen.check.known import known_ways
+from scadgen.check.proof import proved
+from scadgen.check.ways import come_apart
+from scadgen.errors import GeometryError, InputError, KitError
+from scadgen.interlock.assembly import make_assembly
+from scadgen.interlock.contacts import find_contacts
+from scadgen.interlock.escape import escape
+from scadgen.interlock.path import Path, narrowest, replay
+from scadgen.interlock.verdict import Certificate, Motion, verdict
+from scadgen.joint.joint import DETAILS, make_joint
+from scadgen.joint.weave import Weave
+from scadgen.kit.build import Request, build
+from scadgen.kit.store import dumps, loads
+
+STAGES = {
+    "hexagonal": ["the peg", "half A", "half B", "2 connectors"],
+    "square": ["the peg", "half A", "half B", "3 connectors", "2 connectors"],
+}
+
+
+@pytest.mark.parametrize("key", ["fixed", "loose"])
+@pytest.mark.parametrize("frame", list(STAGES))
+@pytest.mark.parametrize("detail", ["draft", "standard"])
+def test_built_in_joints_come_apart_on_known_ways(frame, key, detail):
+    made = kit(frame, key, detail=detail)
+    found = list(come_apart(made, known_ways(made), seconds=1e-3))
+    assert all(result.good for result, _ in found)
+    assert [result.check.split(" come")[0] for result, _ in found] == STAGES[frame]
+
+
+@pytest.mark.parametrize("side", [5.0, 25.0])
+def test_known_ways_hold_at_any_size_and_with_a_bore(side):
+    values = {"side": side, "clearance": 0.03 * side, "bore": 0.15 * side}
+    made = build(Request("hexagonal", "loose", detail="draft", values=values))
+    assert all(result.good for result, _ in come_apart(made, known_ways(made), seconds=1e-3))
+
+
+def test_a_kit_carries_what_is_proved_of_it():
+    made = proved(kit("hexagonal"))
+    assert len(made.ways) == 4
+    assert "half A comes out" in made.verdicts
+    assert "play of a tube's tip" in made.verdicts
+    again = loads(dumps(made))
+    assert dumps(again) == dumps(made)
+    # Read back, its own ways are enough.
+    assert all(result.good for result, _ in come_apart(again, again.ways, seconds=1e-3))
+
+
+def test_a_way_through_a_wall_is_not_believed_and_another_is_found():
+    made = proved(kit("hexagonal"))
+    peg, half, *_ = made.ways
+    lifted = np.zeros((2, 6))
+    lifted[1, 2] = 10.0
+    through = replace(half, path=Path.through(lifted, half.path.middle))
+    (_, first), (result, second), *_ = come_apart(made, [peg, through])
+    assert first is peg
+    assert result.good
+    assert second is not through
+    assert len(second.path.poses) > 2
+
+
+def test_a_joint_without_clearance_is_not_proved_to_come_apart():
+    made = build(Request("hexagonal", detail="draft", values={"clearance": 0, "peg_clearance": 0}))
+    with pytest.raises(GeometryError, match=r"comes out: no way found.*more clearance"):
+        proved(made)
+
+
+def damaged(change):
+    document = json.loads(dumps(proved(kit("hexagonal"))))
+    change(document["ways"][0])
+    return json.dumps(document)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda way: way["moving"].append(9), "moves pieces that the joint lacks"),
+        (lambda way: way["steps"][0].pop(), "way 'the peg comes out'|inhomogeneous"),
+        (lambda way: way.pop("middle"), "'middle' is a required property"),
+    ],
+)
+def test_a_kit_with_a_broken_way_is_refused(change, words):
+    with pytest.raises(KitError, match=words):
+        loads(damaged(change))
+
+
+# A peg of 1 x 1 x 3 stands in a socket 1.2 wide; it can be lifted, or pushed aside first.
+PEG = box((0.1, 0.1, 0.1), (1.1, 1.1, 3.1))
+WALLS = [
+    box((-1, -1, -1), (2.2, 2.2, 0)),
+    box((-1, -1, 0), (0, 2.2, 2)),
+    box((1.2, -1, 0), (2.2, 2.2, 2)),
+]
+
+
+def moved(*shifts):
+    steps = np.zeros((len(shifts), 6))
+    steps[:, :3] = shifts
+    return Path.through(steps, np.array([0.6, 0.6, 1.6]))
+
+
+def test_the_narrowest_gap_of_a_straight_way():
+    up = moved((0, 0, 0), (0, 0, 4))
+    assert narrowest(up, [PEG], WALLS, least=0.01, look=1) == pytest.approx(0.1)
+    assert narrowest(up, [PEG], WALLS, least=0.11, look=1) == 0
+    aside = moved((0, 0, 0), (0.06, 0, 0), (0.06, 0, 4))
+    assert narrowest(aside, [PEG], WALLS, least=0.01, look=1) == pytest.approx(0.04)
+
+
+def test_the_proof_sees_what_stands_between_two_poses():
+    """A wall a thousandth thick between the first pose and the second."""
+    wall = box((5, -5, -5), (5.001, 5, 5))
+    over = moved((0, 0, 0), (10, 0, 0))
+    assert narrowest(over, [PEG], [wall], least=1e-4, look=1) == 0
+    assert replay(over, [PEG], [wall], 20) == 0
+    past = moved((0, 0, 0), (0, 0, 8), (10, 0, 8))
+    assert narrowest(past, [PEG], [wall], least=1e-4, look=1) == pytest.approx(1)
+
+
+def test_what_is_no_way_out_is_not_proved():
+    stay = moved((0, 0, 0), (0, 0, 1))
+    assert narrowest(stay, [PEG], WALLS, least=0.01, look=1) == 0
+    with pytest.raises(InputError, match="must be above 0"):
+        narrowest(stay, [PEG], WALLS, least=0, look=1)
+
+
+def pieces_of(shape):
+    """Halves and whole connectors of a joint without clearance, where they stand, in sides."""
+    made = make_joint(regular(3), Weave(*shape), DETAILS["draft"])
+    whole = []
+    for angle, surface in zip(made.edges, made.connectors, strict=True):
+        points, triangles = mesh(surface)
+        c, s = math.cos(angle), math.sin(angle)
+        whole.append((points @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]), triangles))
+    return [mesh(half) for half in made.halves[0]], whole
+
+
+def judged(meshes, held):
+    return verdict(make_assembly(meshes, find_contacts(meshes, 1e-3), held))
+
+
+@pytest.fixture
+def _whole_rings(monkeypatch):
+    """Judge weaves that do not leave a tube all of its face, as long as no tube is there."""
+    monkeypatch.setattr(joints, "check_footprint", lambda *_: None)
+
+
+@pytest.mark.usefixtures("_whole_rings")
+def test_a_weave_that_locks_and_comes_apart_without_clearance():
+    (first, second), whole = pieces_of((1.694, 0.961, 0.25, 0.695, 1.53))
+    assert isinstance(judged(whole, (0,)), Certificate)
+    for moving, fixed in (
+        (first, [second, *whole[1:]]),
+        (second, whole[1:]),
+        (whole[1], whole[2:]),
+    ):
+        tries = (escape([moving], fixed, seed=seed, seconds=60) for seed in range(1, 6))
+        assert any(isinstance(found, Path) for found in tries)
+
+
+@pytest.mark.usefixtures("_whole_rings")
+def test_a_weave_that_is_tight_but_cannot_be_put_together():
+    (first, second), whole = pieces_of((1.215, 0.966, 0.658, 0.618, 1.758))
+    assert isinstance(judged(whole, (0,)), Certificate)
+    # Half A is locked by the other pieces, though the peg is out.
+    assert isinstance(judged([first, second, *whole[1:]], (1, 2, 3)), Certificate)
+
+
+@pytest.mark.usefixtures("_whole_rings")
+@pytest.mark.parametrize("shape", [(1.5, 0.9, 0.3, 1.0, 1.0), (1.5, 0.8, 0.15, 1.0, 1.0)])
+def test_connectors_that_follow_the_ring_are_movable(shape):
+    _, whole = pieces_of(shape)
+    assert isinstance(judged(whole, (0,)), Motion)
