@@ -30,7 +30,7 @@ lint: setup  ## check style, types and layers
 	$(BIN)/deptry scadgen
 
 bench:  ## measure how long things take
-	@scripts/setup
+	@scripts/setup tests
 	$(BIN)/python benchmarks/bench.py
 
 pictures:  ## draw the pictures of the documentation

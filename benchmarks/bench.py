@@ -11,6 +11,9 @@ from collections.abc import Callable
 
 import drawing
 import generating
+import in_freecad
+import locking
+import proving
 import refining
 from report import heading, line, progress
 
@@ -37,8 +40,11 @@ def main() -> None:
     for measure in (refining.accuracy, drawing.measure):
         for frame in frames:
             _try(measure, frame)
+    locking.run()
+    proving.run()
+    in_freecad.run()
     heading("This run")
-    line("wall time", f"{time.monotonic() - start:.0f} s", "at most 240 s")
+    line("wall time", f"{time.monotonic() - start:.0f} s", "at most 300 s")
     progress("done")
 
 

@@ -1,4 +1,4 @@
-"""What `bench_freecad.py` measures, inside FreeCAD."""
+"""What `in_freecad.py` measures, inside FreeCAD."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
 """CPU time of parts and frames in FreeCAD.
 
-python benchmarks/bench_freecad.py
+python benchmarks/in_freecad.py
 """
 
 from __future__ import annotations

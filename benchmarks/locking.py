@@ -1,6 +1,6 @@
 """CPU time and memory of contacts, verdicts and certificates.
 
-python benchmarks/bench_interlock.py
+python benchmarks/locking.py
 """
 
 from __future__ import annotations
