@@ -9,8 +9,9 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from scadgen.check.proof import proved
 from scadgen.emit.mesh import write_atomic
-from scadgen.emit.picture import frame_picture, joint_picture, parts_picture
+from scadgen.emit.picture import assembly_picture, frame_picture, joint_picture, parts_picture
 from scadgen.errors import ScadgenError
 from scadgen.kit.build import VALENCE, Request, build
 
@@ -25,10 +26,11 @@ _APART = 3.5
 
 def pictures(frame: str) -> Iterator[tuple[str, bytes]]:
     """Names and bytes of a frame's pictures."""
-    kit = build(Request(frame))
+    kit = proved(build(Request(frame)))
     yield f"{frame}_frame.png", frame_picture(kit, size=_SIZE)
     yield f"{frame}_joint.png", joint_picture(kit, size=_SIZE)
     yield f"{frame}_joint_apart.png", joint_picture(kit, _APART, size=_SIZE)
+    yield f"{frame}_assembly.png", assembly_picture(kit, size=_SIZE)
     yield f"{frame}_parts.png", parts_picture(kit, size=_SIZE)
 
 

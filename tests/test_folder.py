@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from kits import KINDS, kit, named
 
+from scadgen.check.proof import proved
 from scadgen.emit.folder import files_of, write_kit
 from scadgen.errors import InputError
 from scadgen.kit.build import Request, build
@@ -206,3 +207,19 @@ def test_the_kit_can_be_moved(tmp_path):
     shutil.move(tmp_path / "kit", tmp_path / "moved")
     for path in (tmp_path / "moved").iterdir():
         assert str(tmp_path).encode() not in path.read_bytes()
+
+
+def test_a_proved_kit_shows_how_its_joint_is_put_together(tmp_path):
+    folder = tmp_path / "kit"
+    made = proved(kit("hexagonal"))
+    write_kit(made, folder)
+    assert {path.name for path in folder.iterdir()} == {*FILES, "assembly.png"}
+    readme = (folder / "README.md").read_text()
+    assert "](assembly.png)" in readme
+    assert "Unchecked" not in readme
+    # An unchecked one in its place shows nothing, and says why in each text.
+    write_kit(kit("hexagonal"), folder)
+    assert {path.name for path in folder.iterdir()} == FILES
+    for name in ("README.md", "hexagonal.scad", "Makefile"):
+        assert "unchecked" in (folder / name).read_text().lower()
+    assert '"proved": false' in (folder / "kit.json").read_text()

@@ -5,10 +5,19 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from kits import kit
 from PIL import Image
 from stub_kit import stub_kit
 
-from scadgen.emit.picture import COLOURS, frame_picture, joint_picture, parts_picture, preview
+from scadgen.check.proof import proved
+from scadgen.emit.picture import (
+    COLOURS,
+    assembly_picture,
+    frame_picture,
+    joint_picture,
+    parts_picture,
+    preview,
+)
 from scadgen.errors import InputError
 
 PAPER = (250, 250, 248)
@@ -113,3 +122,20 @@ def test_frame_shows_rows_crosses_halves_and_caps():
 
 def test_same_kit_same_bytes():
     assert preview(stub_kit(), size=SMALL) == preview(stub_kit(), size=SMALL)
+
+
+def test_assembly_shows_each_step_with_what_comes_in():
+    made = proved(kit("hexagonal"))
+    image = pixels(assembly_picture(made, size=(900, 600)))
+    # Four steps of two things each, some of which hide behind each other.
+    assert 4 <= blobs(image) <= 8
+    for role in ("half_a", "half_b", "peg", "cap"):
+        assert shows(image, role)
+    top, bottom = image[:300], image[300:]
+    assert not shows(top, "peg")
+    assert shows(bottom, "peg")
+
+
+def test_an_unchecked_kit_has_no_assembly_to_show():
+    with pytest.raises(InputError, match="unchecked"):
+        assembly_picture(kit("hexagonal"))

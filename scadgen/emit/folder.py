@@ -11,7 +11,7 @@ from pathlib import Path
 
 from scadgen.emit.macro import macro
 from scadgen.emit.makefile import makefile, stl_check
-from scadgen.emit.picture import preview
+from scadgen.emit.picture import assembly_picture, preview
 from scadgen.emit.readme import readme
 from scadgen.emit.scad import parameter_sets, scad
 from scadgen.errors import InputError
@@ -20,13 +20,14 @@ from scadgen.kit.store import FORMAT, dumps
 
 __all__ = ["check_folder", "files_of", "write_kit"]
 
-#: What the kit's Makefile and `scadgen render` write, which a new kit makes stale.
-_RENDERED = {"stl", "3mf", "png", "plates", ".build"}
+#: What a new kit makes stale: what the kit's Makefile and `scadgen render` write, and what an
+#: unchecked kit lacks.
+_STALE = {"stl", "3mf", "png", "plates", ".build", "assembly.png"}
 
 
 def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
     """The kit's files by name, and what writes each."""
-    return {
+    files: dict[str, Callable[[Kit], str | bytes]] = {
         "kit.json": dumps,
         f"{kit.frame}.scad": scad,
         f"{kit.frame}.json": parameter_sets,
@@ -36,6 +37,7 @@ def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
         "README.md": readme,
         "preview.png": preview,
     }
+    return {**files, "assembly.png": assembly_picture} if kit.ways else files
 
 
 def write_kit(kit: Kit, folder: Path, *, progress: Callable[[str], None] = lambda _: None) -> None:
@@ -122,7 +124,7 @@ def _swap(stage: Path, target: Path, old: Path) -> None:
     if not target.exists():
         stage.rename(target)
         return
-    ours = {entry.name for entry in stage.iterdir()} | _RENDERED
+    ours = {entry.name for entry in stage.iterdir()} | _STALE
     kept = [entry.name for entry in target.iterdir() if entry.name not in ours]
     for name in kept:
         source = target / name

@@ -7,7 +7,7 @@ screen, and every role has one colour, the same as in the kit's OpenSCAD file.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from types import MappingProxyType
 
 import numpy as np
@@ -20,7 +20,14 @@ from scadgen.frame.placement import Placement
 from scadgen.kit.model import Kit
 from scadgen.solid.affine import Floats
 
-__all__ = ["COLOURS", "frame_picture", "joint_picture", "parts_picture", "preview"]
+__all__ = [
+    "COLOURS",
+    "assembly_picture",
+    "frame_picture",
+    "joint_picture",
+    "parts_picture",
+    "preview",
+]
 
 #: The colour of each role: steel blue, goldenrod, Indian red, dark salmon, slate, sea green.
 COLOURS: Mapping[str, Colour] = MappingProxyType(
@@ -55,6 +62,8 @@ _JOINT_TURN, _PART_TURN = 18.0, 14.0
 _APART, _MOST_APART = 3.5, 100.0
 #: Tube that a part is shown with, in sides over the shortest; longer ones would dwarf the joints.
 _SHOWN = 3.5
+#: Steps of an assembly in one row at most.
+_MOST_IN_ROW = 3
 #: Room between two items, in sides.
 _GAP = 1.2
 
@@ -104,6 +113,36 @@ def joint_picture(kit: Kit, explode: float = 0.0, *, size: tuple[int, int] = (12
     return _draw(kit, [[_joint(kit, explode)]], size)
 
 
+def assembly_picture(kit: Kit, *, size: tuple[int, int] = (1200, 700)) -> bytes:
+    """Draw how a joint is put together: each step with what comes in just outside.
+
+    Parameters
+    ----------
+    kit
+        The kit.
+    size
+        Width and height in pixels.
+
+    Raises
+    ------
+    InputError
+        The kit was not checked, so that nothing is known of how it is put together.
+    """
+    if not kit.ways:
+        msg = "the kit is unchecked: no way is known on which its joint is put together"
+        raise InputError(msg)
+    there = set(range(len(kit.joint)))
+    steps = []
+    for way in kit.ways:
+        out = way.path.scaled(kit.values["side"]).poses[-1]
+        steps.append(_joint(kit, 0.0, dict.fromkeys(way.moving, out), there))
+        there -= {*way.moving}
+    steps.reverse()
+    rows = math.ceil(len(steps) / _MOST_IN_ROW)
+    count = math.ceil(len(steps) / rows)
+    return _draw(kit, [steps[n : n + count] for n in range(0, len(steps), count)], size)
+
+
 def parts_picture(kit: Kit, *, size: tuple[int, int] = (1200, 900)) -> bytes:
     """Draw one of each part that the frame needs, edge elements first.
 
@@ -138,16 +177,27 @@ def _frame(kit: Kit) -> tuple[Placement, ...]:
     return LAYOUTS[kit.frame](kit.rows, kit.columns, kit.key)
 
 
-def _joint(kit: Kit, explode: float) -> _Item:
-    """The pieces of a joint; its connectors, which have one role, in turn lighter."""
+def _joint(
+    kit: Kit,
+    explode: float,
+    moved: Mapping[int, Floats] = MappingProxyType({}),
+    there: Collection[int] | None = None,
+) -> _Item:
+    """The pieces of a joint; its connectors, which have one role, in turn lighter.
+
+    Some may be moved, each by a pose; and some may not be there.
+    """
     shells = _placed(kit, kit.joint, kit.values, explode)
     seen = 0
     for n, placement in enumerate(kit.joint):
+        points, triangles, colour = shells[n]
+        if n in moved:
+            points = points @ moved[n][:3, :3].T + moved[n][:3, 3]
         if placement.role == "cap":
-            points, triangles, colour = shells[n]
-            shells[n] = (points, triangles, _lighter(colour, 0.3 * seen))
+            colour = _lighter(colour, 0.3 * seen)
             seen += 1
-    return [(_turned(p, _JOINT_TURN, flip=False), t, c) for p, t, c in shells]
+        shells[n] = _turned(points, _JOINT_TURN, flip=False), triangles, colour
+    return [shell for n, shell in enumerate(shells) if there is None or n in there]
 
 
 def _lighter(colour: Colour, share: float) -> Colour:

@@ -72,6 +72,7 @@ def readme(kit: Kit) -> str:
         live=[_live(kit, settings[name]) for name in settings if name in kit.values],
         most_cells=MOST_CELLS,
         weave={name: _text(value) for name, value in kit.weave.items()},
+        assembly=bool(kit.ways),
         verdicts={name: _text(found) for name, found in kit.verdicts.items()},
         figures={name: _text(value) for name, value in kit.figures.items()},
         command=_fenced(kit.command),
