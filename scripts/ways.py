@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import json
 import sys
-from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -23,19 +23,21 @@ from scadgen.kit.store import way_entry
 FILE = Path(__file__).parents[1] / "scadgen" / "check" / "ways.json"
 
 
-def found() -> Iterator[tuple[str, list[dict[str, Any]]]]:
-    """Every built-in joint, and the ways of its pieces out of it."""
-    for (name, weave), detail in itertools.product(BUILT_IN.items(), DETAILS):
-        valence, key = name.split("-")
-        kit = build_joint(int(valence), weave, key, detail)
-        ways = []
-        for result, way in come_apart(kit, known_ways(kit), roomy=True):
-            print(name, detail, result.check, result.figure, file=sys.stderr)
-            if way is None:
-                sys.exit(1)
-            ways.append(way_entry(way))
-        yield key_of(kit), ways
+def found(joint: tuple[str, str]) -> tuple[str, list[dict[str, Any]]]:
+    """The ways of a joint's pieces out of it, by what tells it from all others."""
+    name, detail = joint
+    valence, key = name.split("-")
+    kit = build_joint(int(valence), BUILT_IN[name], key, detail)
+    known, ways = known_ways(kit), []
+    for result, way in come_apart(kit, known, roomy=not known):
+        print(name, detail, result.check, result.figure, file=sys.stderr, flush=True)
+        if way is None:
+            sys.exit(f"{name} {detail}: stuck")
+        ways.append(way_entry(way))
+    return key_of(kit), ways
 
 
 if __name__ == "__main__":
-    FILE.write_text(json.dumps(dict(found()), indent=0) + "\n", encoding="utf-8")
+    with ProcessPoolExecutor() as workers:
+        ways = dict(workers.map(found, itertools.product(BUILT_IN, DETAILS)))
+    FILE.write_text(json.dumps(ways, indent=0) + "\n", encoding="utf-8")

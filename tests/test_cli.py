@@ -158,9 +158,9 @@ def test_kit_goes_into_a_folder_of_the_frames_name(run, tmp_path, monkeypatch):
     assert load(tmp_path / "hexagonal").frame == "hexagonal"
 
 
-@pytest.mark.parametrize("name", sorted(BUILT_IN))
+@pytest.mark.parametrize("name", [name for name in sorted(BUILT_IN) if name[0] in "34"])
 def test_kit_takes_a_built_in_weave(name, run, tmp_path):
-    frame = {"3": "hexagonal", "4": "square"}.get(name[0], "hexagonal")
+    frame = {"3": "hexagonal", "4": "square"}[name[0]]
     assert run("kit", frame, *DRAFT, "--weave", name, "-o", tmp_path / "kit")[0] == 0
     assert load(tmp_path / "kit").weave == BUILT_IN[name].as_dict()
 
@@ -186,7 +186,8 @@ def test_kit_that_does_not_lock_is_made_only_if_asked_for_unchecked(run, refused
 
 @pytest.mark.parametrize("kind", ["stl", "3mf", "obj", "glb"])
 def test_export_is_read_back_with_the_right_volume(kind, run, folder, tmp_path):
-    trimesh = pytest.importorskip("trimesh")
+    import trimesh
+
     made = load(folder)
     for name, changes in (("half", {}), ("basic", {"side": 12.0, "edge_length": 90.0})):
         words = [w for n, v in changes.items() for w in ("--set", f"{n}={v}")]
@@ -232,9 +233,10 @@ def test_render_draws_every_part(kind, run, folder):
 
 
 def test_render_draws_pictures(run, folder):
-    image = pytest.importorskip("PIL.Image")
+    from PIL import Image
+
     assert run("render", folder, "--format", "png", "--part", "joint")[0] == 0
-    with image.open(folder / "png" / "joint.png") as picture:
+    with Image.open(folder / "png" / "joint.png") as picture:
         assert len(picture.convert("RGB").quantize(32).getcolors()) > 8
 
 

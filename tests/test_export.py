@@ -18,7 +18,8 @@ METRE = 1000
 
 
 def read(data, kind):
-    trimesh = pytest.importorskip("trimesh")
+    import trimesh
+
     loaded = trimesh.load(io.BytesIO(data), file_type=kind)
     return loaded.to_mesh() if isinstance(loaded, trimesh.Scene) else loaded
 

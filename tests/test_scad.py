@@ -344,9 +344,10 @@ def test_explode_moves_pieces_apart(hexagonal, tmp_path):
 
 @pytest.mark.parametrize("part", ["joint", "frame"])
 def test_pictures_have_several_colours(part, hexagonal, tmp_path):
-    image = pytest.importorskip("PIL.Image")
+    from PIL import Image
+
     render(hexagonal, tmp_path / "p.png", {"part": part}, timeout=60, options=PICTURE)
-    with image.open(tmp_path / "p.png") as picture:
+    with Image.open(tmp_path / "p.png") as picture:
         assert len(picture.convert("RGB").quantize(32).getcolors()) > 8
 
 

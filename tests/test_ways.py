@@ -10,7 +10,9 @@ from kits import kit, mesh, regular
 from shapes import box
 
 import scadgen.joint.joint as joints
+from scadgen.check.joint_contacts import whole_contacts
 from scadgen.check.known import known_ways
+from scadgen.check.locking import TIP
 from scadgen.check.proof import proved
 from scadgen.check.ways import come_apart
 from scadgen.errors import GeometryError, InputError, KitError
@@ -18,9 +20,10 @@ from scadgen.interlock.assembly import make_assembly
 from scadgen.interlock.contacts import find_contacts
 from scadgen.interlock.escape import escape
 from scadgen.interlock.path import Path, narrowest, replay
+from scadgen.interlock.play import play
 from scadgen.interlock.verdict import Certificate, Motion, verdict
 from scadgen.joint.joint import DETAILS, make_joint
-from scadgen.joint.weave import Weave
+from scadgen.joint.weave import BUILT_IN, Weave
 from scadgen.kit.build import Request, build
 from scadgen.kit.store import dumps, loads
 
@@ -183,3 +186,23 @@ def test_a_weave_that_is_tight_but_cannot_be_put_together():
 def test_connectors_that_follow_the_ring_are_movable(shape):
     _, whole = pieces_of(shape)
     assert isinstance(judged(whole, (0,)), Motion)
+
+
+def largest(made):
+    """Play of the worst tip of a joint's whole connectors, along the worst axis."""
+    meshes, contacts = whole_contacts(made)
+    assembly = make_assembly(meshes, contacts, (0,))
+    tips = TIP * np.column_stack([np.cos(made.edges), np.sin(made.edges), 0 * made.edges])
+    return max(play(assembly, n, tips[n]).max() for n in assembly.free)
+
+
+@pytest.mark.usefixtures("_whole_rings")
+@pytest.mark.parametrize(
+    ("count", "plausible"), [(3, (1.5, 0.9, 0.3, 0.65, 1.0)), (4, (1.5, 0.9, 0.15, 0.35, 1.0))]
+)
+def test_built_in_weaves_have_at_most_half_the_play_of_plausible_ones(count, plausible):
+    ours, other = (
+        largest(make_joint(regular(count), weave, DETAILS["standard"]))
+        for weave in (BUILT_IN[f"{count}-fixed"], Weave(*plausible))
+    )
+    assert ours < other / 2

@@ -202,13 +202,19 @@ class SiteCurve:
 #: found with arms that print; see the table in ``docs/geometry.md``.
 BUILT_IN: Mapping[str, Weave] = MappingProxyType(
     {
-        w.name: w
-        for w in (
-            Weave(1.583, 0.892, 0.354, 0.674, 1.317, name="3-fixed"),
-            Weave(1.583, 0.892, 0.354, 0.674, 1.317, name="3-loose"),
-            Weave(2.089, 0.843, 0.406, 0.578, 1.4, name="4-fixed"),
-            Weave(2.089, 0.843, 0.406, 0.578, 1.4, name="4-loose"),
-        )
+        name: Weave(*shape, name=name)
+        for name, shape in {
+            "2-fixed": (1.691, 1.057, 0.426, 0.749, 1.371),
+            "2-loose": (1.691, 1.057, 0.426, 0.749, 1.371),
+            "3-fixed": (1.79, 0.892, 0.365, 0.724, 1.413),
+            "3-loose": (1.79, 0.892, 0.365, 0.724, 1.413),
+            "4-fixed": (2.241, 0.858, 0.401, 0.609, 1.394),
+            "4-loose": (2.241, 0.858, 0.401, 0.609, 1.394),
+            "5-fixed": (2.323, 0.816, 0.347, 0.373, 1.499),
+            "5-loose": (2.323, 0.816, 0.347, 0.373, 1.499),
+            "6-fixed": (4.258, 0.741, 0.403, 0.52, 1.811),
+            "6-loose": (4.258, 0.741, 0.403, 0.52, 1.811),
+        }.items()
     }
 )
 

@@ -317,7 +317,7 @@ def _values(request: Request, pieces: _Pieces, limits: Iterable[Range]) -> dict[
     values |= {name: v for name, v in request.values.items() if name != "bore" or v > 0}
     if "edge_length" not in request.values:
         least = max(r.low(values) for r in limits if r.parameter == "edge_length")
-        values["edge_length"] = max(6, math.ceil(least / side + 1)) * side
+        values["edge_length"] = max(6, math.ceil(least / side + 0.9)) * side
     return values
 
 

@@ -1,0 +1,193 @@
+"""The task panel that has the engine check a kit."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import FreeCAD as App
+import FreeCADGui as Gui
+from PySide import QtGui
+
+from freecad.scadgen import document
+from freecad.scadgen.affine import KitError
+from freecad.scadgen.engine import Engine, EngineError, Outcome
+from freecad.scadgen.kit_object import data_of
+from freecad.scadgen.names import KINDS
+from freecad.scadgen.panels.panel import Panel
+from freecad.scadgen.properties import refuse, values_of
+
+__all__ = ["CheckPanel", "Row"]
+
+translate = App.Qt.translate
+
+
+class Row(NamedTuple):
+    """One line of the table.
+
+    Parameters
+    ----------
+    good
+        Whether it holds.
+    check, figure, bound
+        What was checked, what was found, and what must be.
+    objects
+        Names of the objects that it is about.
+    """
+
+    good: bool
+    check: str
+    figure: str
+    bound: str
+    objects: tuple[str, ...]
+
+
+class CheckPanel(Panel):
+    """Has the engine make the kit again at the document's values, compares, and checks it."""
+
+    page = "check"
+
+    def __init__(self, kit: Any) -> None:
+        super().__init__()
+        self.kit = kit
+        self.rows: list[Row] = []
+        self.form.table.setColumnCount(4)
+        self.form.table.setHorizontalHeaderLabels(
+            [
+                "",
+                translate("Scadgen", "Check"),
+                translate("Scadgen", "Found"),
+                translate("Scadgen", "Must be"),
+            ]
+        )
+        self.form.table.itemSelectionChanged.connect(self.select)
+        self.engine = Engine(self.form)
+        self.engine.said.connect(self.tell)
+        self.engine.ended.connect(self._ended)
+        self._folder = tempfile.TemporaryDirectory(prefix="scadgen-")
+        self._made = False
+
+    def getStandardButtons(self) -> int:
+        """Close alone."""
+        return int(QtGui.QDialogButtonBox.Close)
+
+    def present(self) -> None:
+        """Show the panel and start."""
+        super().present()
+        self.rows = [row for row in (_sound(part) for part in self._parts()) if row]
+        folder = Path(self._folder.name)
+        try:
+            self._start(_making(self.kit, folder))
+        except KitError as error:
+            self._ended(Outcome(False, "", str(error)))
+
+    def reject(self) -> bool:
+        """Stop and close."""
+        self.engine.ended.disconnect(self._ended)
+        self.engine.stop()
+        self._folder.cleanup()
+        self.leave()
+        return True
+
+    def select(self) -> None:
+        """Select the objects that the chosen line is about."""
+        Gui.Selection.clearSelection()
+        chosen = {item.row() for item in self.form.table.selectedItems()}
+        for name in {name for n in chosen for name in self.rows[n].objects}:
+            Gui.Selection.addSelection(self.kit.Document.Name, name)
+
+    def _parts(self) -> list[Any]:
+        return [p for p in document.ours(self.kit.Document, "part") if p.Kit == self.kit]
+
+    def _start(self, arguments: list[str]) -> None:
+        try:
+            self.engine.start(arguments)
+        except EngineError as error:
+            self._ended(Outcome(False, "", str(error)))
+
+    def _ended(self, outcome: Outcome) -> None:
+        if outcome.good and self._made:
+            self._checked(outcome.output)
+        elif outcome.good:
+            self._remade()
+        else:
+            self._show()
+            self.tell(outcome.message, bad=True)
+
+    def _remade(self) -> None:
+        """Compare what the engine made with what is in the document, and check it."""
+        folder = Path(self._folder.name) / "kit"
+        made = json.loads((folder / "kit.json").read_text(encoding="utf-8"))["parts"]
+        here = json.loads(self.kit.Data)["parts"]
+        for part in KINDS:
+            good = here.get(part) == made.get(part)
+            found = translate("Scadgen", "the same") if good else translate("Scadgen", "another")
+            check = translate("Scadgen", "{} is what the engine makes").format(part)
+            bound = translate("Scadgen", "the same")
+            self.rows.append(Row(good, check, found, bound, self._about(part)))
+        self._made = True
+        self._start(["check", str(folder), "--json"])
+
+    def _checked(self, output: str) -> None:
+        """Add what the engine found."""
+        for r in json.loads(output):
+            about = next((p for p in KINDS if p in r["check"].replace(":", " ").split()), "")
+            row = Row(r["good"], r["check"], r["figure"], r["bound"], self._about(about))
+            self.rows.append(row)
+        self._show()
+        bad = sum(not row.good for row in self.rows)
+        text = translate("Scadgen", "{} of {} checks are good")
+        message = text.format(len(self.rows) - bad, len(self.rows))
+        self.tell(message, bad=bad > 0)
+
+    def _about(self, kind: str) -> tuple[str, ...]:
+        return tuple(part.Name for part in self._parts() if part.Kind == kind)
+
+    def _show(self) -> None:
+        """Fill the table, what is bad first, and choose its first line if it is bad."""
+        self.form.progress.hide()
+        self.rows.sort(key=lambda row: row.good)
+        table = self.form.table
+        table.setRowCount(len(self.rows))
+        for n, row in enumerate(self.rows):
+            verdict = translate("Scadgen", "ok") if row.good else translate("Scadgen", "FAILED")
+            for column, text in enumerate((verdict, row.check, row.figure, row.bound)):
+                table.setItem(n, column, QtGui.QTableWidgetItem(text))
+        table.resizeColumnsToContents()
+        if self.rows and not self.rows[0].good:
+            table.selectRow(0)
+
+
+def _sound(part: Any) -> Row | None:
+    """What is wrong with a part's own values, if anything is."""
+    data = data_of(part.Kit)
+    try:
+        refuse(data, values_of(part, data))
+    except KitError as error:
+        check = translate("Scadgen", "{} is in its ranges").format(part.Label)
+        return Row(False, check, str(error), translate("Scadgen", "in range"), (part.Name,))
+    return None
+
+
+def _making(kit: Any, folder: Path) -> list[str]:
+    """Arguments that make a kit again at its present values.
+
+    Raises
+    ------
+    KitError
+        A value is out of its range.
+    """
+    data = data_of(kit)
+    values = values_of(kit, data)
+    refuse(data, values)
+    weave = json.loads(kit.Data)["weave"]
+    path = folder / f"{weave['name']}.json"
+    path.write_text(json.dumps({k: v for k, v in weave.items() if k != "name"}), encoding="utf-8")
+    words = ["kit", data.frame, "--output", str(folder / "kit"), "--weave", str(path)]
+    words += ["--key", data.key, "--detail", data.detail]
+    words += ["--rows", str(kit.Rows), "--columns", str(kit.Columns)]
+    for name, value in values.items():
+        words += [f"--{name.replace('_', '-')}", repr(value)]
+    return [*words, "--unchecked"]  # the check proves it anyway
