@@ -40,4 +40,5 @@ def found(joint: tuple[str, str]) -> tuple[str, list[dict[str, Any]]]:
 if __name__ == "__main__":
     with ProcessPoolExecutor() as workers:
         ways = dict(workers.map(found, itertools.product(BUILT_IN, DETAILS)))
-    FILE.write_text(json.dumps(ways, indent=0) + "\n", encoding="utf-8")
+    lines = [f"{json.dumps(name)}: {json.dumps(entries)}" for name, entries in ways.items()]
+    FILE.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
