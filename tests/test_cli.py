@@ -329,7 +329,7 @@ BAD_KITS = [
     ("hexagonal", ("--peg-chamfer", "3"), "peg_chamfer = 3 mm: must be 0.1 to 1 mm"),
     ("hexagonal", ("--bore", "5"), "bore = 5 mm: must be 0.7 to 2.4 mm"),
     ("hexagonal", ("--key", "loose", "--peg-length", "3"), "peg_length = 3 mm: must be "),
-    ("hexagonal", ("--weave", "granny"), "weave 'granny': neither a file nor one of 3-fixed"),
+    ("hexagonal", ("--weave", "granny"), "weave 'granny': neither a file nor one of 2-fixed"),
     ("hexagonal", ("--weave", "falls-apart.json"), "a connector falls apart into 3 pieces"),
     ("square", ("--weave", "slides.json"), "whole connectors lock: 1 parts can move"),
     ("square", ("--weave", "loses-footprint.json"), "weave loses-footprint: only "),
