@@ -80,6 +80,7 @@ def test_it_makes_a_kit(installed, tmp_path):
         "check_stl.py",
         "README.md",
         "preview.png",
+        "assembly.png",
     }
     said = run(
         *(installed / "scadgen", "export", "hexagonal", "--part", "half", "-o", "half.stl"),
