@@ -5,17 +5,24 @@ The same scadgen gives the same bytes, so a picture changes only when what it sh
 
 from __future__ import annotations
 
+import itertools
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 from scadgen.check.proof import proved
+from scadgen.emit.frame_picture import frame_svg
 from scadgen.emit.mesh import write_atomic
 from scadgen.emit.picture import assembly_picture, frame_picture, joint_picture, parts_picture
 from scadgen.errors import ScadgenError
+from scadgen.frame.catalogue import named
+from scadgen.frame.sameness import sameness
 from scadgen.kit.build import VALENCE, Request, build
+from scadgen.readers.read import read
 
-__all__ = ["main", "pictures"]
+__all__ = ["frames", "main", "pictures"]
+
+_EXAMPLES = Path(__file__).parents[1] / "examples" / "frames"
 
 #: Width and height of each, in pixels.
 _SIZE = (900, 675)
@@ -34,16 +41,26 @@ def pictures(frame: str) -> Iterator[tuple[str, bytes]]:
     yield f"{frame}_parts.png", parts_picture(kit, size=_SIZE)
 
 
+def frames() -> Iterator[tuple[str, bytes]]:
+    """Names and bytes of the pictures of frames that are not kits."""
+    shown = {
+        "tiling": named("3.4.6.4"),
+        "star": read(_EXAMPLES / "star.svg").frame,
+        "net": read(_EXAMPLES / "net.json").frame,
+    }
+    for name, frame in shown.items():
+        yield f"frame_{name}.svg", frame_svg(frame, sameness(frame)).encode()
+
+
 def main(folder: Path) -> int:
     """Write all pictures into a folder; the exit status."""
     folder.mkdir(parents=True, exist_ok=True)
     try:
-        for frame in VALENCE:
-            for name, data in pictures(frame):
-                write_atomic(folder / name, data)
-                print(folder / name)
+        for name, data in itertools.chain(frames(), *map(pictures, VALENCE)):
+            write_atomic(folder / name, data)
+            print(folder / name)
     except ScadgenError as error:
-        print(f"pictures: {frame}: {error}", file=sys.stderr)
+        print(f"pictures: {error}", file=sys.stderr)
         return 2
     return 0
 

@@ -12,6 +12,7 @@ import click
 from scadgen import __version__
 from scadgen.cli.check import check
 from scadgen.cli.export import export
+from scadgen.cli.frame import frame
 from scadgen.cli.freecad import freecad
 from scadgen.cli.interlock import interlock
 from scadgen.cli.kit import kit
@@ -31,7 +32,7 @@ def cli() -> None:
     """Turn a planar frame into 3D-printable parts that interlock without glue or screws."""
 
 
-for command in (kit, export, render, check, interlock, tune, freecad):
+for command in (kit, frame, export, render, check, interlock, tune, freecad):
     cli.add_command(command)
 
 

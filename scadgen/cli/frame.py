@@ -1,0 +1,173 @@
+"""``scadgen frame``: look at a frame, named or drawn."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from scadgen.cli.console import status, table
+from scadgen.cli.frame_report import SIDES, report, show
+from scadgen.cli.frame_source import load_frame, option, source_options
+from scadgen.errors import InputError
+
+if TYPE_CHECKING:
+    from scadgen.frame.graph import Frame
+    from scadgen.frame.sameness import Sameness, Snapped
+
+__all__ = ["frame"]
+
+_FILE = click.Path(path_type=Path)
+
+
+@click.command(short_help="Look at a frame, named or drawn.")
+@click.argument("name", metavar="FRAME", required=False)
+@click.option("--list", "listing", is_flag=True, help="List the named frames, with their options.")
+@click.option("--side", type=float, metavar="MM", help="Say whether it can be built at this side.")
+@click.option(
+    "--ring-ratio",
+    type=float,
+    metavar="R",
+    help="Radius of all rings, in sides.  [default: the built-in weaves', or what angles need]",
+)
+@click.option(
+    "--snap-angle", type=float, metavar="DEG", help="Turn edges by this much for fewer kinds."
+)
+@click.option(
+    "--snap-length", type=float, metavar="MM", help="Change lengths by this much for fewer kinds."
+)
+@source_options
+@click.option("-o", "--output", type=_FILE, help="Write the frame as JSON.")
+@click.option("--picture", type=_FILE, metavar="FILE", help="Draw it as SVG, in colours by kind.")
+@click.option("--json", "as_json", is_flag=True, help="Say it as JSON.")
+def frame(  # noqa: PLR0913, PLR0917  one argument an option
+    name: str | None,
+    listing: bool,  # noqa: FBT001  click passes flags so
+    side: float | None,
+    ring_ratio: float | None,
+    snap_angle: float | None,
+    snap_length: float | None,
+    output: Path | None,
+    picture: Path | None,
+    as_json: bool,  # noqa: FBT001
+    **options: Any,  # noqa: ANN401  of families and files
+) -> int:
+    """Look at a frame: its joints and edges, and what stands in the way of building it.
+
+    FRAME is a name (see --list) or a file: JSON, SVG, DXF, OBJ or OFF.  Joints are named by
+    letters, and A.2 is the second edge of joint A, counter-clockwise; the angles are those
+    between its edges in that order.  Ring ratios are in sides.
+
+    Exit status 1 if --side was given and it cannot be built so.
+
+    \b
+    scadgen frame 3.4.6.4 --edge-length 60 --side 10 --picture tiling.svg
+    scadgen frame drawing.svg --tolerance 0.1 -o frame.json
+    """  # noqa: D301  click wants the character
+    if listing:
+        if name is not None:
+            msg = f"--list with FRAME {name!r}: give one of them"
+            raise InputError(msg)
+        _list(as_json=as_json)
+        return 0
+    if name is None:
+        msg = "FRAME: is missing; name a file, or one of those that scadgen frame --list shows"
+        raise InputError(msg)
+    _check_files(output, picture)
+    _check_range("side", side, "mm", SIDES)
+    from scadgen.check.frame import rings
+    from scadgen.emit.frame_picture import frame_svg
+    from scadgen.emit.mesh import write_atomic
+    from scadgen.frame.sameness import Snapped
+    from scadgen.joint.weave import LIMITS
+    from scadgen.readers.json_frame import dumps
+
+    _check_range("ring-ratio", ring_ratio, "sides", LIMITS["ring_ratio"])
+    with status("looking at the frame"):
+        read = load_frame(name, options)
+        kinds = _kinds(read.frame, snap_angle, snap_length)
+        snapped, same = (kinds, kinds.same) if isinstance(kinds, Snapped) else (None, kinds)
+        said = report(rings(read.frame, same, ring_ratio), read.notes, snapped, side)
+        if output:
+            write_atomic(output, dumps(read.frame).encode())
+        if picture:
+            write_atomic(picture, frame_svg(read.frame, same).encode())
+    if as_json:
+        click.echo(json.dumps(said, indent=1))
+    else:
+        show(said)
+    return int(side is not None and bool(said["in_the_way"]))
+
+
+def _kinds(frame: Frame, angle: float | None, length: float | None) -> Sameness | Snapped:
+    """What is the same; snapped if an angle, in degrees, or a length is given for that."""
+    import inspect
+
+    from scadgen.frame.sameness import sameness, snap
+
+    known = inspect.signature(sameness).parameters
+    most = float(frame.ends.gap.min()) / 4
+    if angle is not None and not 0 < angle < math.degrees(most):
+        msg = (
+            f"snap-angle = {angle:g} degrees: must be above 0 and under {math.degrees(most):.4g}, "
+            "a quarter of the smallest angle between two edges"
+        )
+        raise InputError(msg)
+    if length is not None and not 0 < length < math.inf:
+        msg = f"snap-length = {length:g} mm: must be a positive number of mm"
+        raise InputError(msg)
+    # Edges very near each other are told as such, not as a tolerance that nobody gave.
+    usual = min(known["angle_tolerance"].default, most / 2)
+    turn = usual if angle is None else math.radians(angle)
+    within = known["length_tolerance"].default if length is None else length
+    if angle is None and length is None:
+        return sameness(frame, turn, within)
+    return snap(frame, turn, within)
+
+
+def _check_range(what: str, value: float | None, unit: str, limits: tuple[float, float]) -> None:
+    if value is not None and not limits[0] <= value <= limits[1]:
+        msg = f"{what} = {value:g} {unit}: must be from {limits[0]:g} to {limits[1]:g}"
+        raise InputError(msg)
+
+
+def _check_files(output: Path | None, picture: Path | None) -> None:
+    """Refuse, before any work, what could not be written or not be read again."""
+    for path, ending in ((output, ".json"), (picture, ".svg")):
+        if path and path.is_dir():
+            msg = f"{str(path)!r}: is a folder; name a file"
+            raise InputError(msg)
+        if path and path.suffix.lower() != ending:
+            msg = f"{str(path)!r}: must end in {ending}"
+            raise InputError(msg)
+
+
+def _list(*, as_json: bool) -> None:
+    """Print the named frames; those with the same options together."""
+    from scadgen.frame.catalogue import ALIASES, NAMES
+
+    others = {n: [alias for alias, of in ALIASES.items() if of == n] for n in NAMES}
+    if as_json:
+        rows = [
+            {"name": n, "other_names": others[n], "text": f.text, "options": f.defaults}
+            for n, f in NAMES.items()
+        ]
+        click.echo(json.dumps(rows, indent=1))
+        return
+    groups: dict[str, list[tuple[str, str, str]]] = {}
+    for name, family in NAMES.items():
+        known = ", ".join(
+            option(n) + ("" if default is None else f" {default}")
+            for n, default in family.defaults.items()
+        )
+        groups.setdefault(known, []).append((f"  {name}", family.text, ", ".join(others[name])))
+    for known, lines in groups.items():
+        click.echo(known)
+        table(lines[0], lines[1:])
+        click.echo()
+    click.echo(
+        "Numbers are defaults; without rows, columns, radius or outline there are 3 x 3 cells."
+    )

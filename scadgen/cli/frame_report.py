@@ -1,0 +1,194 @@
+"""What ``scadgen frame`` says of a frame, as data and as tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from scadgen.cli.console import table
+
+if TYPE_CHECKING:
+    from scadgen.check.frame import Build
+    from scadgen.frame.sameness import Snapped
+
+__all__ = ["SIDES", "report", "show"]
+
+#: Smallest and largest side of a kit, in mm.
+SIDES = (5.0, 100.0)
+
+#: Rows of a table and lines of a list that are printed; JSON has all.
+_SHOWN = 40
+
+#: Reasons that are printed: tables have what each edge is too short by.
+_REASONS = 5
+
+#: Decimals of what is computed, in JSON.
+_DECIMALS = 6
+
+
+def report(
+    build: Build, notes: Sequence[str], snapped: Snapped | None, side: float | None
+) -> dict[str, Any]:
+    """All that is said, as JSON has it; lengths in mm, angles in degrees.
+
+    Parameters
+    ----------
+    build
+        The frame with its rings.
+    notes
+        What was changed on reading it.
+    snapped
+        What it costs to have fewer kinds, if that was asked for.
+    side
+        Side of the tubes, in mm, if it is to be built.
+    """
+    frame, largest = build.frame, build.largest_side
+    return {
+        "name": frame.name,
+        "vertices": len(frame.vertices),
+        "edges": len(frame.edges),
+        "parts": int(frame.components.max()) + 1,
+        "bounds": frame.bounds.tolist(),
+        "notes": list(notes),
+        "snap": snapped and _snap(snapped),
+        "kinds_of_joints": _joints(build),
+        "kinds_of_edges": _edges(build, side),
+        "side": side,
+        "largest_side": largest and math.floor(largest * 10**_DECIMALS) / 10**_DECIMALS,
+        "in_the_way": [*build.unfit, *(build.too_short(side) if side else ())],
+    }
+
+
+def _snap(snapped: Snapped) -> dict[str, Any]:
+    return {
+        "angle_error": _rounded(math.degrees(snapped.angle_error)),
+        "length_error": _rounded(snapped.length_error),
+        "miss": _rounded(snapped.miss),
+        "notes": list(snapped.notes),
+    }
+
+
+def _joints(build: Build) -> list[dict[str, Any]]:
+    import numpy as np
+
+    from scadgen.emit.frame_picture import joint_name
+
+    kinds = zip(build.same.joints, build.least, build.rings, strict=True)
+    return [
+        {
+            "name": joint_name(kind),
+            "count": len(joint.vertices),
+            "edges": len(joint.directions),
+            "angles": [
+                _rounded(math.degrees(gap)) for gap in np.diff(joint.directions, append=2 * math.pi)
+            ],
+            "symmetry": joint.symmetry,
+            "least_ring_ratio": _rounded(least),
+            "ring_ratio": _rounded(ring),
+            "vertices": joint.vertices.tolist(),
+        }
+        for kind, (joint, least, ring) in enumerate(kinds)
+    ]
+
+
+def _edges(build: Build, side: float | None) -> list[dict[str, Any]]:
+    from scadgen.emit.frame_picture import joint_name
+
+    missing = build.missing(side or 0.0)
+    return [
+        {
+            "name": str(kind),
+            "count": len(edge.edges),
+            "length": _rounded(edge.length),
+            "ends": [
+                {"joint": joint_name(joint), "edge": slot + 1}
+                for joint, slot in zip(edge.joints, edge.slots, strict=True)
+            ],
+            "missing": _rounded(missing[edge.edges].max()),
+            "edges": edge.edges.tolist(),
+        }
+        for kind, edge in enumerate(build.same.edges, 1)
+    ]
+
+
+def show(said: dict[str, Any]) -> None:
+    """Print what `report` gives."""
+    (left, low), (right, high) = said["bounds"]
+    parts = f" in {said['parts']} parts" if said["parts"] > 1 else ""
+    click.echo(
+        f"{said['name']}: {said['vertices']} vertices, {said['edges']} edges{parts}, "
+        f"{right - left:.6g} x {high - low:.6g} mm from ({left:.6g}, {low:.6g})"
+    )
+    _lines(said["notes"])
+    joints, edges = said["kinds_of_joints"], said["kinds_of_edges"]
+    click.echo(f"\nkinds of joints: {len(joints)}")
+    _table(
+        ("joint", "count", "edges", "smallest ring", "ring", "angles"),
+        [
+            (
+                joint["name"],
+                str(joint["count"]),
+                str(joint["edges"]),
+                f"{joint['least_ring_ratio']:.3f}",
+                f"{joint['ring_ratio']:.3f}",
+                " ".join(f"{angle:.4g}" for angle in joint["angles"]),
+            )
+            for joint in joints
+        ],
+    )
+    click.echo(f"\nkinds of edges: {len(edges)}")
+    _table(
+        ("edge", "count", "length", "ends", "too short by" if said["side"] else ""),
+        [
+            (
+                edge["name"],
+                str(edge["count"]),
+                f"{edge['length']:.6g}",
+                " - ".join(f"{end['joint']}.{end['edge']}" for end in edge["ends"]),
+                f"{edge['missing']:.4g}" if edge["missing"] else "",
+            )
+            for edge in edges
+        ],
+    )
+    click.echo()
+    if said["snap"]:
+        _lines(said["snap"]["notes"], "snapped: ")
+    _lines(said["in_the_way"], most=_REASONS)
+    click.echo(_verdict(said["side"], said["largest_side"], bool(said["in_the_way"])))
+
+
+def _verdict(side: float | None, largest: float | None, in_the_way: bool) -> str:  # noqa: FBT001
+    """Which sides fit, or what would help."""
+    if largest is None:
+        return "cannot be built at any side"
+    least = side or SIDES[0]
+    larger = f"a frame {math.ceil(least / largest * 1000) / 1000:g} times as large"
+    within = f"{math.floor(min(largest, SIDES[1]) * 1000) / 1000:g} mm"
+    if largest < SIDES[0]:
+        return f"too small for sides of {least:g} mm; {larger} would do"
+    if in_the_way:
+        return f"too small for sides of {least:g} mm; sides of {within} or {larger} would do"
+    return f"sides up to {within} fit, clearance aside"
+
+
+def _rounded(value: float) -> float:
+    return round(float(value), _DECIMALS)
+
+
+def _table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> None:
+    table(header, rows[:_SHOWN])
+    _more(len(rows))
+
+
+def _lines(lines: Sequence[str], before: str = "", most: int = _SHOWN) -> None:
+    for line in lines[:most]:
+        click.echo(before + line)
+    _more(len(lines), most)
+
+
+def _more(count: int, most: int = _SHOWN) -> None:
+    if count > most:
+        click.echo(f"and {count - most} more; --json has all")

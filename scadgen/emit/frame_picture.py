@@ -1,0 +1,175 @@
+"""Frames as SVG: vertices coloured by kind of joint, edges by kind of edge."""
+
+from __future__ import annotations
+
+import colorsys
+import html
+import string
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from scadgen.frame.graph import Frame
+from scadgen.frame.sameness import Sameness
+from scadgen.solid.affine import Floats
+
+__all__ = ["frame_svg", "joint_name"]
+
+_XML = "http://www.w3.org/2000/svg"
+
+#: Width of a picture and largest height of its drawing, in pixels.
+_WIDTH, _HEIGHT = 900, 900
+
+#: Space around the drawing and around the legend, in pixels.
+_MARGIN = 30
+
+#: Tubes and joints as shares of the edges' median length, and the least and most in pixels.
+_TUBE, _TUBES = 0.09, (1.0, 8.0)
+_JOINT, _JOINTS = 0.14, (1.5, 12.0)
+
+#: The legend: its entries a row, height of a row in pixels, and most entries of joints or edges.
+_COLUMNS, _ROW, _ENTRIES = 5, 24, 30
+
+#: Hues a golden section of the circle apart: any few that follow each other differ well.
+_GOLDEN = 0.381966
+
+#: Lightness and saturation of edges, which are pale, and of joints.
+_PALE, _STRONG = ((0.62, 0.55, 0.7), 0.5), ((0.42, 0.3, 0.52), 0.75)
+
+
+def joint_name(kind: int) -> str:
+    """Name of a kind of joint: A to Z, then AA, AB, ...
+
+    Parameters
+    ----------
+    kind
+        Its number, from 0.
+
+    Examples
+    --------
+    >>> joint_name(0), joint_name(25), joint_name(26)
+    ('A', 'Z', 'AA')
+    """
+    more, letter = divmod(kind, 26)
+    return (joint_name(more - 1) if more else "") + string.ascii_uppercase[letter]
+
+
+def frame_svg(frame: Frame, same: Sameness) -> str:
+    """Draw a frame, y up, with a legend where there are few kinds.
+
+    Parameters
+    ----------
+    frame
+        The frame.
+    same
+        Its kinds of joints and edges.
+    """
+    points, height = _on_page(frame)
+    median = float(np.median(np.linalg.norm(np.diff(points[frame.edges], axis=1), axis=2)))
+    tube = float(np.clip(_TUBE * median, *_TUBES))
+    joint = float(np.clip(_JOINT * median, *_JOINTS))
+    legend: list[str] = []
+    for texts, what, mark in (
+        (_joint_texts(same), "joints", _disc),
+        (_edge_texts(same), "edges", _line),
+    ):
+        marks = len(texts) <= _ENTRIES
+        entries = texts if marks else [f"{len(texts)} kinds of {what}"]
+        legend += _legend(entries, mark if marks else None, height)
+        height += _ROW * -(-len(entries) // _COLUMNS)
+    size = f'width="{_WIDTH}" height="{height}"'
+    return "\n".join(
+        [
+            f'<svg xmlns="{_XML}" {size} viewBox="0 0 {_WIDTH} {height}">',
+            f"<title>{html.escape(frame.name)}</title>",
+            f'<rect {size} fill="white"/>',
+            f'<g stroke-width="{tube:.2f}" stroke-linecap="round">',
+            *_edges(points, frame, same),
+            "</g>",
+            '<g stroke="#222222">',
+            *_joints(points, same, joint),
+            "</g>",
+            '<g font-family="sans-serif" font-size="13" fill="#222222">',
+            *legend,
+            "</g>",
+            "</svg>\n",
+        ]
+    )
+
+
+def _on_page(frame: Frame) -> tuple[Floats, int]:
+    """Vertices in pixels, y down, and the height of the page without legend."""
+    low, high = frame.bounds
+    extent = high - low
+    room = np.array([_WIDTH, _HEIGHT]) - 2 * _MARGIN
+    scale = float((room / np.maximum(extent, 1e-9)).min())
+    width, height = extent * scale
+    left = (_WIDTH - width) / 2
+    points = (frame.vertices - low) * scale * (1, -1) + (left, _MARGIN + height)
+    return points, round(height) + 2 * _MARGIN
+
+
+def _edges(points: Floats, frame: Frame, same: Sameness) -> Iterator[str]:
+    """A group of lines for each kind of edge."""
+    for kind, text in enumerate(_edge_texts(same)):
+        ends = points[frame.edges[same.edges[kind].edges]].reshape(-1, 4)
+        path = "".join(f"M{a:.2f} {b:.2f}L{c:.2f} {d:.2f}" for a, b, c, d in ends)
+        yield f'<path stroke="{_colour(kind, _PALE)}" d="{path}"><title>edge {text}</title></path>'
+
+
+def _joints(points: Floats, same: Sameness, radius: float) -> Iterator[str]:
+    """A group of discs for each kind of joint."""
+    for kind, text in enumerate(_joint_texts(same)):
+        yield f'<g fill="{_colour(kind, _STRONG)}"><title>joint {text}</title>'
+        for x, y in points[same.joints[kind].vertices]:
+            yield f'<circle cx="{x:.2f}" cy="{y:.2f}" r="{radius:.2f}"/>'
+        yield "</g>"
+
+
+def _joint_texts(same: Sameness) -> list[str]:
+    return [
+        f"{joint_name(kind)}: {len(joint.vertices)} with {_edges_of(len(joint.directions))}"
+        for kind, joint in enumerate(same.joints)
+    ]
+
+
+def _edge_texts(same: Sameness) -> list[str]:
+    return [
+        f"{kind}: {len(edge.edges)} of {edge.length:.4g} mm"
+        for kind, edge in enumerate(same.edges, 1)
+    ]
+
+
+def _edges_of(count: int) -> str:
+    return "1 edge" if count == 1 else f"{count} edges"
+
+
+def _legend(
+    texts: list[str], mark: Callable[[int, float, float], str] | None, top: int
+) -> Iterator[str]:
+    """Texts in rows that begin at this height, each with the mark of its kind."""
+    wide = (_WIDTH - 2 * _MARGIN) / _COLUMNS
+    for kind, text in enumerate(texts):
+        row, column = divmod(kind, _COLUMNS)
+        x, y = _MARGIN + column * wide, top + row * _ROW
+        if mark is not None:
+            yield mark(kind, x, y)
+        yield f'<text x="{x + (24 if mark else 0):.2f}" y="{y + 4:.2f}">{text}</text>'
+
+
+def _disc(kind: int, x: float, y: float) -> str:
+    return f'<circle cx="{x + 8:.2f}" cy="{y:.2f}" r="6" fill="{_colour(kind, _STRONG)}"/>'
+
+
+def _line(kind: int, x: float, y: float) -> str:
+    colour = _colour(kind, _PALE)
+    return f'<path stroke="{colour}" stroke-width="6" d="M{x:.2f} {y:.2f}h16"/>'
+
+
+def _colour(kind: int, tone: tuple[tuple[float, ...], float]) -> str:
+    """A colour of its own for each of many kinds."""
+    lightness, saturation = tone
+    rgb = colorsys.hls_to_rgb(
+        (0.58 + kind * _GOLDEN) % 1.0, lightness[kind % len(lightness)], saturation
+    )
+    return "#" + "".join(f"{round(255 * part):02x}" for part in rgb)

@@ -1,0 +1,296 @@
+"""``scadgen frame`` on named frames and on files as somebody might draw them."""
+
+import json
+import re
+from pathlib import Path
+
+import kits
+import numpy as np
+import pytest
+from defusedxml import ElementTree
+
+from scadgen.check.frame import rings
+from scadgen.cli.frame_report import SIDES
+from scadgen.cli.main import cli, main
+from scadgen.emit.frame_picture import frame_svg, joint_name
+from scadgen.frame.catalogue import ALIASES, NAMES, OPTIONS, named
+from scadgen.frame.graph import make_frame
+from scadgen.frame.sameness import sameness
+from scadgen.joint.weave import BUILT_IN
+from scadgen.readers.read import read
+
+ROOT = Path(__file__).parent.parent
+NET = ROOT / "examples" / "frames" / "net.json"
+SVG = "{http://www.w3.org/2000/svg}"
+
+#: A square of 100 mm, a line across that does not quite reach, and one down that goes too far.
+SKETCH = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 120" height="120mm">
+<rect x="0" y="0" width="100" height="100"/><path d="M0 50H99.995"/><path d="M50 0V120"/></svg>"""
+
+
+@pytest.fixture
+def run(capsys):
+    def run(*words):
+        with pytest.raises(SystemExit) as done:
+            main(["frame", *map(str, words)])
+        out, err = capsys.readouterr()
+        return done.value.code, out, err
+
+    return run
+
+
+@pytest.fixture
+def said(run):
+    def said(*words, code=0):
+        left, out, err = run(*words, "--json")
+        assert (left, err) == (code, "")
+        return json.loads(out)
+
+    return said
+
+
+@pytest.fixture
+def sketch(tmp_path):
+    path = tmp_path / "sketch.svg"
+    path.write_text(SKETCH)
+    return path
+
+
+def test_a_ladder_by_hand(said):
+    # Four corners, with an edge along x first or second, and the ends of one rung.
+    ladder = said("ladder", "--bays", 2, "--width", 30, "--bay-length", 50)
+    assert (ladder["vertices"], ladder["edges"], ladder["parts"]) == (6, 7, 1)
+    assert ladder["bounds"] == [[0, 0], [100, 30]]
+    corner, tee = ladder["kinds_of_joints"]
+    assert (corner["name"], corner["count"], corner["angles"]) == ("A", 4, [90, 270])
+    assert (tee["name"], tee["count"], tee["angles"]) == ("B", 2, [90, 90, 180])
+    assert corner["least_ring_ratio"] == pytest.approx(0.5**0.5 - 0.5, abs=1e-6)
+    kinds = [
+        (e["length"], e["count"], [f"{end['joint']}{end['edge']}" for end in e["ends"]])
+        for e in ladder["kinds_of_edges"]
+    ]
+    # The rungs at the rim, the rung between, and rails to either side of it.
+    assert sorted(kinds) == [
+        (30, 1, ["B2", "B2"]),
+        (30, 2, ["A1", "A2"]),
+        (50, 2, ["A1", "B3"]),
+        (50, 2, ["A2", "B1"]),
+    ]
+    numbers = [n for e in ladder["kinds_of_edges"] for n in e["edges"]]
+    assert sorted(numbers) == list(range(7))
+
+
+def test_a_side_that_is_too_large_is_told_with_what_is_missing(run, said):
+    # R = 1.5: two joints and half a side of tube are 2 sqrt(3.75) + 0.5 = 4.373 sides.
+    words = ("ring", "--edge-length", 40, "--ring-ratio", 1.5)
+    assert said(*words)["largest_side"] == pytest.approx(40 / 4.37298, abs=1e-4)
+    assert said(*words, "--side", 9)["in_the_way"] == []
+    ring = said(*words, "--side", 10, code=1)
+    (edge,) = ring["kinds_of_edges"]
+    assert edge["missing"] == pytest.approx(3.7298, abs=1e-4)
+    code, out, _ = run(*words, "--side", 10)
+    assert code == 1
+    assert "edge 1: 40 mm is 3.73 mm too short for its two joints, from " in out
+    assert " (and 5 more)\n" in out
+    assert out.endswith("sides of 9.147 mm or a frame 1.094 times as large would do\n")
+
+
+def test_what_is_said_of_a_hexagonal_frame_is_what_its_kit_says():
+    kit = kits.kit("hexagonal")
+    (side,) = (r for r in kit.ranges if r.parameter == "side")
+    assert (side.low(kit.values), side.high(kit.values)) == SIDES
+    length = next(r for r in kit.ranges if r.parameter == "edge_length")
+    least = length.low({**kit.values, "side": 7.0, "clearance": 0.0})
+    frame = named("hexagonal", edge_length=least, radius=4 * least)
+    build = rings(frame, sameness(frame))
+    inner = [k for k, joint in enumerate(build.same.joints) if len(joint.directions) == 3]
+    assert set(build.rings[inner]) == {BUILT_IN["3-fixed"].ring_ratio}
+    assert build.largest_side == pytest.approx(7.0)
+    assert not build.missing(7.0).any()
+    assert build.missing(7.01).any()
+
+
+def test_angles_that_no_ring_holds_and_loose_ends_are_told(run, said, tmp_path):
+    path = tmp_path / "fan.svg"
+    # 1 in 20 is 2.862 degrees: R > 1 / (2 sin 1.431) - 1/2 = 19.52; 2 asin(1 / 17) = 6.745.
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 10" width="200mm" height="10mm">'
+        '<path d="M0 0H200L0 10"/></svg>'
+    )
+    fan = said(path, "--side", 10, code=1)
+    assert fan["largest_side"] is None
+    loose, narrow = fan["in_the_way"][:2]
+    assert loose.startswith("joint A: has one edge, at (0, 0) (and 1 more)")
+    assert narrow.startswith("joint B: edges 2.862 degrees apart, at (200, 10), need a ring ratio")
+    assert "over 19.52; at most 8 works, for 6.745 degrees and more" in narrow
+    code, out, _ = run(path)
+    assert code == 0
+    assert out.endswith("cannot be built at any side\n")
+
+
+def test_edges_that_nearly_lie_on_each_other_are_told(said, tmp_path):
+    path = tmp_path / "sliver.json"
+    sliver = {"vertices": [[0, 0], [300, 0], [300, 0.05]], "edges": [[0, 1], [1, 2], [2, 0]]}
+    path.write_text(json.dumps(sliver))
+    assert "edges 0.009549 degrees apart, at (0, 0)" in said(path)["in_the_way"][0]
+
+
+def test_repairs_of_a_drawing_are_told(said, run, sketch):
+    frame = said(sketch)
+    assert (frame["vertices"], frame["edges"]) == (10, 13)
+    notes = frame["notes"]
+    assert sum(note.startswith("end at") for note in notes) == 3
+    assert [n for n in notes if "99.995" in n and n.endswith("0.005 mm off")]
+    assert sorted(n for n in notes if n.startswith("crossing")) == [
+        "crossing split at (50, 20)",
+        "crossing split at (50, 70)",
+    ]
+    assert len(notes) == 5
+    code, out, _ = run(sketch)
+    assert code == 0
+    for note in notes:
+        assert note in out
+    assert out.startswith("sketch: ")
+
+
+def test_snapping_says_what_it_costs(said, run):
+    plain = said(NET)
+    coarse = said(NET, "--snap-angle", 5, "--snap-length", 5)
+    assert plain["snap"] is None
+    assert len(coarse["kinds_of_joints"]) < len(plain["kinds_of_joints"]) == 44
+    assert 0 < coarse["snap"]["angle_error"] <= 5
+    assert 0 < coarse["snap"]["length_error"] <= 5
+    assert coarse["snap"]["miss"] >= coarse["snap"]["length_error"]
+    assert said(NET, "--snap-length", 5)["snap"]["angle_error"] < 0.006
+    assert "snapped: ends miss by up to " in run(NET, "--snap-angle", 5)[1]
+
+
+def test_a_frame_that_is_written_is_read_again(run, said, tmp_path, sketch):
+    path = tmp_path / "frame.json"
+    assert run(sketch, "-o", path)[0] == 0
+    assert read(path).frame == read(sketch).frame
+    assert said(path)["kinds_of_edges"] == said(sketch)["kinds_of_edges"]
+    odd = sketch.rename(tmp_path / "my drawing (2), é<&>.svg")
+    assert run(odd, "-o", path, "--picture", tmp_path / "odd.svg")[0] == 0
+    assert read(path).frame.name == "my drawing _2__ é___"
+    ElementTree.parse(tmp_path / "odd.svg")
+
+
+def test_long_reports_are_cut_and_json_is_not(run, said):
+    _, out, _ = run(NET, "--side", 50)
+    assert "and 68 more; --json has all" in out
+    assert "and 103 more; --json has all" in out
+    assert len(said(NET, "--side", 50, code=1)["in_the_way"]) == 108
+
+
+def test_outlines_are_typed_as_corners(said):
+    square = said("square", "--edge-length", 20, "--outline", "0,0 100,0 100,60 0,60")
+    assert square["bounds"] == [[0, 0], [100, 60]]
+    assert (square["vertices"], square["edges"]) == (24, 38)
+
+
+def test_the_list_names_all(run, said):
+    listed = said("--list")
+    assert [(f["name"], f["text"]) for f in listed] == [(n, f.text) for n, f in NAMES.items()]
+    assert {a: f["name"] for f in listed for a in f["other_names"]} == ALIASES
+    code, out, _ = run("--list")
+    assert code == 0
+    for name in (*NAMES, *ALIASES):
+        assert re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", out), name
+
+
+def test_options_are_those_of_the_catalogue():
+    known = {p.name: p.help for p in cli.commands["frame"].params if p.name in OPTIONS}
+    assert known == {name: f"Named frames: {text}." for name, text in OPTIONS.items()}
+
+
+def test_the_table_of_the_readme_is_the_catalogue():
+    head = "| frame | other names |"
+    lines = (ROOT / "README.md").read_text().split(head)[1].split("\n\n")[0].splitlines()[2:]
+    area = {"rows", "columns", "radius", "outline"}
+    table = {}
+    for line in lines:
+        name, others, text, options = (cell.strip() for cell in line.strip("|").split("|"))
+        taken = {o.replace("-", "_") for o in re.findall(r"--([a-z-]+)", options)}
+        taken |= area if options.endswith(", area") else set()
+        table[name.strip("`")] = (set(re.findall(r"`([^`]+)`", others)), text, taken)
+    assert table == {
+        name: ({a for a, of in ALIASES.items() if of == name}, f.text, set(f.options))
+        for name, f in NAMES.items()
+    }
+
+
+def test_a_picture_has_every_part_in_the_colour_of_its_kind(run, tmp_path):
+    path = tmp_path / "picture.svg"
+    assert run("3.4.6.4", "--picture", path)[0] == 0
+    frame = named("3.4.6.4")
+    same = sameness(frame)
+    assert path.read_text() == frame_svg(frame, same)
+    edges, joints = ElementTree.parse(path).getroot().findall(f"{SVG}g")[:2]
+    lines = {p.get("stroke"): p.get("d").count("M") for p in edges}
+    assert sorted(lines.values()) == sorted(len(e.edges) for e in same.edges)
+    discs = {g.get("fill"): len(g.findall(f"{SVG}circle")) for g in joints}
+    assert sorted(discs.values()) == sorted(len(j.vertices) for j in same.joints)
+
+
+def test_a_picture_is_the_frame_to_scale_y_up():
+    frame = make_frame("hook", [[0, 0], [0, 300], [40, 300]], [[0, 1], [1, 2]])
+    root = ElementTree.fromstring(frame_svg(frame, sameness(frame)))
+    assert (float(root.get("width")), root.get("viewBox").split()[0]) == (900, "0")
+    discs = root.findall(f"{SVG}g")[1].iter(f"{SVG}circle")
+    points = np.array(sorted((float(d.get("cx")), -float(d.get("cy"))) for d in discs))
+    assert points - points[0] == pytest.approx(np.array([[0, 0], [0, 840], [112, 840]]), abs=0.02)
+    assert (-points[:, 1] < float(root.get("height"))).all()
+
+
+@pytest.mark.parametrize("name", ["tiling", "star", "net"])
+def test_pictures_of_the_readme_are_drawn_from_its_frames(name):
+    folder = ROOT / "examples" / "frames"
+    files = {"star": folder / "star.svg", "net": folder / "net.json"}
+    frame = read(files[name]).frame if name in files else named("3.4.6.4")
+    drawn = (ROOT / "docs" / "pictures" / f"frame_{name}.svg").read_text()
+    assert drawn == frame_svg(frame, sameness(frame))
+
+
+def test_names_of_joints_go_on_after_z():
+    names = [joint_name(kind) for kind in range(26 * 27)]
+    assert names[:2] + names[25:28] + names[-1:] == ["A", "B", "Z", "AA", "AB", "ZZ"]
+    assert len(set(names)) == len(names)
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        ((), "FRAME: is missing"),
+        (("cairo", "--list"), "--list with FRAME 'cairo': give one of them"),
+        (("circle",), "frame 'circle': must be a file that ends in .dxf, .json, .obj, .off, .svg"),
+        (("drawing.svg",), "drawing.svg: cannot be read: No such file"),
+        (("ring", "--rows", 2), "frame ring: no option --rows; it has --sides, --edge-length"),
+        (("ring", "--scale", 2), "frame ring: no option --scale"),
+        ((NET, "--rows", 2), "net.json: no option --rows; it has --scale, --components"),
+        ((NET, "--no-split"), "net.json: no option --no-split"),
+        ((NET, "--most", 10), "at most 10"),
+        ((NET, "--scale", 0), "scale = 0.0: must be a positive number"),
+        ((NET, "--shortest", 50), "at least 50 mm"),
+        (("ring", "--sides", 2), "sides = 2: must be a whole number from 3"),
+        (("ring", "--sides", 2.5), "2.5"),
+        (("square", "--outline", "0,0 1"), "outline = '0,0 1': must be corners such as"),
+        (("ring", "--side", 4), "side = 4 mm: must be from 5 to 100"),
+        (("ring", "--side", "nan"), "side = nan mm"),
+        (("ring", "--ring-ratio", 9), "ring-ratio = 9 sides: must be from 0.8 to 8"),
+        (("ring", "--snap-angle", 30), "snap-angle = 30 degrees: must be above 0 and under 30"),
+        (("ring", "--snap-length", 0), "snap-length = 0 mm: must be a positive number of mm"),
+        (("ring", "-o", "."), "'.': is a folder; name a file"),
+        (("ring", "--picture", "."), "'.': is a folder; name a file"),
+        (("ring", "-o", "ring.txt"), "'ring.txt': must end in .json"),
+        (("ring", "--picture", "ring.png"), "'ring.png': must end in .svg"),
+        (("ring", "-o", "no/ring.json"), "cannot write 'no/ring.json'"),
+    ],
+)
+def test_bad_requests_are_refused_in_a_line(words, reason, run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run(*words)
+    assert (code, out) == (2, "")
+    assert reason in err
+    assert err.count("\n") == 1
+    assert not list(tmp_path.iterdir())
