@@ -1,7 +1,8 @@
 """Find the ways out of the built-in joints that `scadgen kit` need not search for then.
 
-usage: scripts/ways.py
-Writes scadgen/check/ways.json; a way that is there and still holds is kept.
+usage: scripts/ways.py [VALENCE | DETAIL]...
+Writes scadgen/check/ways.json; ways of other joints than those named stay as they are, and one
+that is there and holds is where a wider one is looked for.
 """
 
 from __future__ import annotations
@@ -15,30 +16,51 @@ from typing import Any
 
 from scadgen.check.known import key_of, known_ways
 from scadgen.check.ways import come_apart
+from scadgen.frame.placement import KEYS
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import build_joint
+from scadgen.kit.model import Way
 from scadgen.kit.store import way_entry
 
 FILE = Path(__file__).parents[1] / "scadgen" / "check" / "ways.json"
 
 
-def found(joint: tuple[str, str]) -> tuple[str, list[dict[str, Any]]]:
-    """The ways of a joint's pieces out of it, by what tells it from all others."""
-    name, detail = joint
-    valence, key = name.split("-")
-    kit = build_joint(int(valence), BUILT_IN[name], key, detail)
-    known, ways = known_ways(kit), []
-    for result, way in come_apart(kit, known, roomy=not known):
-        print(name, detail, result.check, result.figure, file=sys.stderr, flush=True)
-        if way is None:
-            sys.exit(f"{name} {detail}: stuck")
-        ways.append(way_entry(way))
-    return key_of(kit), ways
+def found(joint: tuple[int, str]) -> dict[str, list[dict[str, Any]]]:
+    """The ways of a joint's pieces out of it in both key styles, by what tells it from others."""
+    valence, detail = joint
+    entries: dict[str, list[dict[str, Any]]] = {}
+    known: list[Way] = []  # connectors come apart alike in both
+    for key in KEYS:
+        name = f"{valence}-{key}"
+        kit = build_joint(valence, BUILT_IN[name], key, detail)
+        known += known_ways(kit)
+        ways = []
+        for result, way in come_apart(kit, known, roomy=True):
+            print(name, detail, result.check, result.figure, file=sys.stderr, flush=True)
+            if way is None:
+                sys.exit(f"{name} {detail}: stuck")
+            ways.append(way)
+        entries[key_of(kit)] = [way_entry(way) for way in ways]
+        known = ways
+    return entries
+
+
+def main(words: list[str]) -> None:
+    """Find the ways of all joints, or of those that some words name."""
+    names = sorted({int(name.split("-")[0]) for name in BUILT_IN})
+    joints = [
+        (valence, detail)
+        for detail, valence in itertools.product(DETAILS, names)
+        if not words or (str(valence) in words or detail in words)
+    ]
+    ways = json.loads(FILE.read_text("utf-8"))
+    with ProcessPoolExecutor() as workers:
+        for entries in workers.map(found, joints):
+            ways |= entries
+            lines = [f"{json.dumps(name)}: {json.dumps(ways[name])}" for name in sorted(ways)]
+            FILE.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
-    with ProcessPoolExecutor() as workers:
-        ways = dict(workers.map(found, itertools.product(BUILT_IN, DETAILS)))
-    lines = [f"{json.dumps(name)}: {json.dumps(entries)}" for name, entries in ways.items()]
-    FILE.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
+    main(sys.argv[1:])

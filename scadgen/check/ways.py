@@ -36,6 +36,9 @@ _SEEDS = (1, 2, 3)
 #: Gap that a piece keeps on its way, as shares of the clearance: at least; known at most.
 _LEAST, _LOOK = 0.05, 2.0
 
+#: Gap, as a share of the clearance, of a way that cannot be much wider.
+_ROOMY = 0.9
+
 #: What every way has to be.
 _BOUND = "touching nothing"
 
@@ -75,8 +78,8 @@ def come_apart(
     seconds
         Time for each search; some are made before a stage is given up.
     roomy
-        Whether to widen each way, which takes longer than to find it: it then holds for
-        smaller clearances too.
+        Whether to widen each way that is narrow, which may take longer than to find it: it
+        then holds for smaller clearances too.
     say
         Told what is being searched for.
 
@@ -100,7 +103,7 @@ def come_apart(
         if found is None:
             yield Result(stage.name, good=False, figure="no way found", bound=_BOUND), None
             return
-        if roomy:
+        if roomy and found[1] < _ROOMY * joint.clearance:
             found = joint.widened(found[0], present) or found
         way, gap = found
         figure = f"{gap:.3f} mm from all others"

@@ -7,23 +7,23 @@ row as contacts have: how fast it recedes under a translation and a rotation tim
 from __future__ import annotations
 
 import numpy as np
-from scipy.optimize import nnls
+from scipy.optimize import linprog, nnls
 
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.field import Field
 from scadgen.interlock.scene import Pose, Scene
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["Walls", "nearest"]
+__all__ = ["Walls", "nearest", "widest"]
 
 #: Distance of the grids' nodes and of the points, in sizes of the body.
 _CELL, _SPACING = 0.035, 0.07
 
-#: The same for a closer look.
-_CLOSE_CELL, _CLOSE_SPACING = 0.015, 0.04
+#: Distance of the points for a closer look.
+_CLOSE_SPACING = 0.04
 
-#: Nodes of a grid at most, and for a closer look; beyond, its cells are wider.
-_NODES, _CLOSE_NODES = 1.5e6, 1.2e7
+#: Nodes of a grid at most; beyond, its cells are wider.
+_NODES = 1.5e6
 
 #: How near a point has to be to count, how far points are kept in sight, and how fast one
 #: that is too near is made to recede, in sizes.
@@ -47,19 +47,17 @@ class Walls:
     scene
         The body among the others.
     close
-        Whether to look closely, which takes longer.
+        Whether to look closely: at more points, and by exact distances, which takes longer.
     """
 
     def __init__(self, scene: Scene, *, close: bool = False) -> None:
-        self.size = scene.size
-        spacing, cell, nodes = (
-            (_CLOSE_SPACING, _CLOSE_CELL, _CLOSE_NODES) if close else (_SPACING, _CELL, _NODES)
-        )
-        self._points = _points(*scene.body, spacing * self.size) - scene.middle
-        self._others = _points(*scene.rest, spacing * self.size)
+        self.size, self._close = scene.size, close
+        spacing = (_CLOSE_SPACING if close else _SPACING) * self.size
+        self._points = _points(*scene.body, spacing) - scene.middle
+        self._others = _points(*scene.rest, spacing)
         body = scene.body[0] - scene.middle, scene.body[1]
-        self._own = _field(body, cell * self.size, nodes)
-        self._around = _field(scene.rest, cell * self.size, nodes)
+        self._own = _field(body, _CELL * self.size)
+        self._around = _field(scene.rest, _CELL * self.size)
         self._seen: tuple[Ints, Ints] = (np.arange(0), np.arange(0))
         self._from: Pose | None = None
         self._reach = float(np.linalg.norm(self._points, axis=1).max())
@@ -84,15 +82,39 @@ class Walls:
         rows, least
             ``(k, 6)`` and ``(k,) float``: rows @ step >= least.
         """
+        rows, gaps = self.near(pose)
+        return rows, np.minimum(gap - gaps, _RECEDE * self.size)
+
+    def near(self, pose: Pose) -> tuple[Floats, Floats]:
+        """Near points: how fast each recedes under a step, and its distance.
+
+        Parameters
+        ----------
+        pose
+            Where the body is.
+
+        Returns
+        -------
+        rows, gaps
+            ``(k, 6)`` and ``(k,) float``, mm: after a step they are gaps + rows @ step.
+        """
         values, others, points, back = self._values(pose)
-        near = values < _BAND * self.size
-        arm, normal = points[near] - pose.centre, self._around.normal(points[near])
-        blocks = [np.concatenate([normal, np.cross(arm, normal) / self.size], axis=1)]
-        close = others < _BAND * self.size
-        arm, normal = back[close] @ pose.turn.T, -self._own.normal(back[close]) @ pose.turn.T
-        blocks.append(np.concatenate([normal, np.cross(arm, normal) / self.size], axis=1))
-        least = gap - np.concatenate([values[near], others[close]])
-        return np.concatenate(blocks), np.minimum(least, _RECEDE * self.size)
+        near, close = values < self._band, others < self._band
+        points, back = points[near], back[close]
+        gaps, normals = self._felt(self._around, points, values[near])
+        back_gaps, back_normals = self._felt(self._own, back, others[close])
+        arms = np.concatenate([points - pose.centre, back @ pose.turn.T])
+        normals = np.concatenate([normals, -back_normals @ pose.turn.T])
+        rows = np.concatenate([normals, np.cross(arms, normals) / self.size], axis=1)
+        return rows, np.concatenate([gaps, back_gaps])
+
+    def _felt(self, field: Field, points: Floats, values: Floats) -> tuple[Floats, Floats]:
+        """Distances of near points from a solid, and the unit vectors away from it."""
+        return field.exact(points) if self._close else (values, field.normal(points))
+
+    @property
+    def _band(self) -> float:
+        return _BAND * self.size
 
     @property
     def _far(self) -> float:
@@ -162,6 +184,25 @@ def nearest(wanted: Floats, rows: Floats, least: Floats, size: float) -> Floats:
     return step
 
 
+def widest(rows: Floats, gaps: Floats, most: float) -> float:
+    """The largest smallest gap that a step may make, in mm.
+
+    Parameters
+    ----------
+    rows, gaps
+        As `Walls.near` tells them; at least one.
+    most
+        How far each of the step's six entries may go, in mm.
+    """
+    found = linprog(
+        [0.0] * 6 + [-1.0],
+        A_ub=np.column_stack([-rows, np.ones(len(rows))]),
+        b_ub=gaps,
+        bounds=[(-most, most)] * 6 + [(None, None)],
+    )
+    return float(gaps.min() if found.x is None else found.x[6])
+
+
 def _shortest(rows: Floats, least: Floats) -> Floats | None:
     """The shortest x with rows @ x >= least, by its dual."""
     scale = float(least.max(initial=0.0))
@@ -178,10 +219,10 @@ def _shortest(rows: Floats, least: Floats) -> Floats | None:
     return np.asarray(-residual[:6] / residual[6] * scale)
 
 
-def _field(mesh: Mesh, cell: float, nodes: float) -> Field:
+def _field(mesh: Mesh, cell: float) -> Field:
     """A mesh's field, its cells as fine as wanted or as its box allows."""
     box = np.ptp(mesh[0], axis=0)
-    return Field(*mesh, max(cell, float((box.prod() / nodes) ** (1 / 3))))
+    return Field(*mesh, max(cell, float((box.prod() / _NODES) ** (1 / 3))))
 
 
 def _points(points: Floats, triangles: Ints, spacing: float) -> Floats:

@@ -25,6 +25,9 @@ _MARKED = 1.5
 #: Pieces of the surface among which the nearest is looked for, by their middles.
 _PIECES = 4
 
+#: The same for an exact distance, and how much nearer the nearest of them is, in cells.
+_NEAR_PIECES, _TIED = 8, 1e-9
+
 #: Slope below which a point is between two walls, away from neither.
 _STEEP = 0.2
 
@@ -145,6 +148,30 @@ class Field:
         inner = across[:, 0] + (across[:, 1] - across[:, 0]) * at[:, 2]
         return np.asarray(inner + self.cell * np.abs(outside).max(axis=1))
 
+    def exact(self, points: Floats) -> tuple[Floats, Floats]:
+        """Signed distance at points ``(k, 3)`` near the surface, and the unit vectors away.
+
+        The nearest point of the surface is looked for among the pieces whose middles are near.
+        """
+        if not len(points):
+            return np.empty(0), np.empty((0, 3))
+        _, near = self._middles.query(points, k=min(_NEAR_PIECES, self._middles.n))
+        corners = self._faces[near.reshape(len(points), -1)]
+        count = corners.shape[1]
+        arms, normals = _arms(np.repeat(points, count, axis=0), corners.reshape(-1, 3, 3))
+        arms, normals = arms.reshape(-1, count, 3), normals.reshape(-1, count, 3)
+        far = np.linalg.norm(arms, axis=2)
+        height = (arms * normals).sum(axis=2)
+        # Beside an edge, which face's side the point is on: that of the one it is highest over.
+        tied = far <= far.min(axis=1)[:, None] + _TIED * self.cell
+        best = np.where(tied, np.abs(height), -1.0).argmax(axis=1)
+        row = np.arange(len(points))
+        sign = np.where(height[row, best] < 0, -1.0, 1.0)
+        far, arm, normal = far[row, best], arms[row, best], normals[row, best]
+        steep = far[:, None] > _TIED * self.cell
+        away = np.where(steep, sign[:, None] * arm / np.maximum(far, 1e-300)[:, None], normal)
+        return sign * far, away
+
     def normal(self, points: Floats) -> Floats:
         """Unit vectors ``(k, 3)`` away from the solid; zero where there is none."""
         node, at, _ = self._around(points)
@@ -172,16 +199,20 @@ def _area(a: Floats, b: Floats, c: Ints) -> Floats:
 
 def _from_triangles(points: Floats, corners: Floats) -> Floats:
     """Distance of each point from its triangle."""
+    return np.asarray(np.linalg.norm(_arms(points, corners)[0], axis=1))
+
+
+def _arms(points: Floats, corners: Floats) -> tuple[Floats, Floats]:
+    """Way to each point from the nearest one of its triangle, and the triangles' normals."""
     sides = np.roll(corners, -1, axis=1) - corners
     normal = np.cross(sides[:, 0], sides[:, 1])
-    length = np.linalg.norm(normal, axis=1)
-    normal = np.divide(
-        normal, length[:, None], out=np.zeros_like(normal), where=length[:, None] > 0
-    )
+    length = np.linalg.norm(normal, axis=1)[:, None]
+    normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
     arm = points[:, None] - corners
     share = (arm * sides).sum(axis=2) / np.maximum((sides**2).sum(axis=2), 1e-300)
-    foot = np.clip(share, 0, 1)[:, :, None] * sides
-    beside = np.linalg.norm(arm - foot, axis=2).min(axis=1)
+    beside = arm - np.clip(share, 0, 1)[:, :, None] * sides
+    nearest = np.linalg.norm(beside, axis=2).argmin(axis=1)
     over = (np.cross(sides, arm) * normal[:, None]).sum(axis=2).min(axis=1) >= 0
-    above = np.abs((arm[:, 0] * normal).sum(axis=1))
-    return np.asarray(np.where(over & (length > 0), above, beside))
+    above = (arm[:, 0] * normal).sum(axis=1)[:, None] * normal
+    over &= length[:, 0] > 0
+    return np.where(over[:, None], above, beside[np.arange(len(points)), nearest]), normal

@@ -1,7 +1,8 @@
 """A way out with more room: the same way, drawn away from the walls.
 
-A search leaves a way as near to walls as it may.  Here each pose between yields to the walls
-near it and to its neighbours, until it keeps a gap as at the start or nothing gives any more.
+A search leaves a way as near to walls as it may.  Here each pose goes to where it has as much
+room as it can have, up to the gap at the start, and there as near to the middle of its neighbours
+as that leaves it; over and over, until nothing gives any more.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from scadgen.interlock.cone import Walls, nearest
+from scadgen.interlock.cone import Walls, nearest, widest
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.path import Path, narrowest
 from scadgen.interlock.scene import Pose, Scene
@@ -19,14 +20,15 @@ from scadgen.solid.affine import Floats
 
 __all__ = ["widened"]
 
-#: Length of the way between two poses that yield, and of a step at most, in sizes.
-_BETWEEN, _STEP = 0.04, 0.02
+#: Length of the way between two poses that yield, and how far one goes at most for more room
+#: and in all, in sizes.
+_BETWEEN, _MORE, _STEP = 0.02, 0.01, 0.02
 
 #: Rounds between two looks, looks, and looks in vain after which it ends.
-_ROUNDS, _LOOKS, _IN_VAIN = 8, 8, 2
+_ROUNDS, _LOOKS, _IN_VAIN = 3, 8, 2
 
-#: Gap that is wished for, as a share of that at the start; enough of it.
-_WISHED, _ENOUGH = 0.95, 0.85
+#: Share of the room it can have that a pose keeps, and of the gap at the start that is enough.
+_KEPT, _ENOUGH = 0.97, 0.95
 
 
 def widened(path: Path, moving: Sequence[Mesh], fixed: Sequence[Mesh], least: float) -> Path:
@@ -50,17 +52,17 @@ def widened(path: Path, moving: Sequence[Mesh], fixed: Sequence[Mesh], least: fl
     walls = Walls(scene, close=True)
     poses = _poses(path, scene)
     wished = max(scene.gap, least)
-    best, widest = path, narrowest(path, moving, fixed, least=least, look=2 * wished)
+    best, most = path, narrowest(path, moving, fixed, least=least, look=2 * wished)
     vain = 0
     for _ in range(_LOOKS):
         for _ in range(_ROUNDS):
-            poses = _yielded(poses, scene, walls, _WISHED * wished)
+            poses = _yielded(poses, scene, walls, wished)
         found = scene.path(poses)
         gap = narrowest(found, moving, fixed, least=least, look=2 * wished)
-        vain = 0 if gap > widest else vain + 1
-        if gap > widest:
-            best, widest = found, gap
-        if widest > _ENOUGH * wished or vain > _IN_VAIN:
+        vain = 0 if gap > most else vain + 1
+        if gap > most:
+            best, most = found, gap
+        if most > _ENOUGH * wished or vain > _IN_VAIN:
             break
     return best
 
@@ -75,8 +77,11 @@ def _yielded(poses: Sequence[Pose], scene: Scene, walls: Walls, gap: float) -> l
     """All poses but the ends a little nearer to where they should be."""
     found = list(poses)
     for n in range(1, len(found) - 1):
-        wanted = _between(found[n], found[n - 1], found[n + 1], scene.size)
-        step = nearest(wanted, *walls.rows(found[n], gap), scene.size)
+        step = _between(found[n], found[n - 1], found[n + 1], scene.size)
+        rows, gaps = walls.near(found[n])
+        if len(gaps):
+            room = widest(rows, gaps, _MORE * scene.size)
+            step = nearest(step, rows, min(_KEPT * room, room, gap) - gaps, scene.size)
         length = float(np.linalg.norm(step)) / (_STEP * scene.size)
         found[n] = found[n].moved(step / max(length, 1.0), scene.size)
     return found
