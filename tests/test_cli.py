@@ -132,8 +132,8 @@ def test_kit_says_what_to_print_and_what_comes_next(run, tmp_path):
 def test_kit_takes_every_option_and_its_command_makes_it_again(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     counts = ("--rows", "1", "--columns", "3", "--key", "loose", *DRAFT)
-    lengths = ("--side", "12.5", "--edge-length", "130", "--clearance", "0.3", "--bore", "2")
-    peg = ("--peg-width", "4.5", "--peg-clearance", "0.3", "--peg-chamfer", "0.4")
+    lengths = ("--side", "12.5", "--edge-length", "130", "--clearance", "0.15", "--bore", "2")
+    peg = ("--peg-width", "4.5", "--peg-clearance", "0.1", "--peg-chamfer", "0.4")
     words = ("kit", "square", *counts, *lengths, *peg)
     code, out, _ = run(*words, "--json", "-o", "one")
     assert code == 0
