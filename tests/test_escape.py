@@ -105,11 +105,9 @@ def test_a_dovetail_slides_along_its_slot(seed):
     assert np.abs(way[1:]).max() < 0.1 * abs(way[0])
 
 
-@settings(max_examples=2)
-@given(st.integers(0, 2**32 - 1))
-def test_a_cube_takes_a_tunnel_of_two_legs(seed):
-    (block, cube), turn = placed(cube_in_tunnel(), np.random.default_rng(seed))
-    path = out([cube], [block], seed % 100)
+def test_a_cube_takes_a_tunnel_of_two_legs():
+    (block, cube), turn = placed(cube_in_tunnel(), np.random.default_rng(0))
+    path = out([cube], [block])
     side = np.ptp(block[0] @ turn, axis=0)[0] / 4
     centres = path.poses[:, :3, :3] @ path.middle + path.poses[:, :3, 3]
     way = (centres - path.middle) @ turn / side
@@ -131,10 +129,20 @@ def test_a_bayonet_turns_and_rises():
     assert path.poses[-1, 2, 3] > 1
 
 
-@pytest.mark.parametrize("gap", [0.05, 0.4])
-def test_no_way_out_of_a_closed_box(gap):
+def shut_in(gap):
+    """What a search finds that has to fail."""
     shell, cube = cube_in_box(gap)
-    found = escape([cube], [shell], seed=1, seconds=SECONDS)
+    return escape([cube], [shell], seed=1, seconds=SECONDS)
+
+
+@pytest.fixture(scope="module")
+def tight():
+    return shut_in(0.05)
+
+
+@pytest.mark.parametrize("gap", [0.05, 0.4])
+def test_no_way_out_of_a_closed_box(gap, tight):
+    found = tight if gap == 0.05 else shut_in(gap)
     assert isinstance(found, Attempts)
     assert found.in_time
     assert found.tries > 50
@@ -147,13 +155,11 @@ def test_no_way_apart_for_linked_rings():
     assert isinstance(found, Attempts)
 
 
-def test_the_same_seed_goes_the_same_way():
+def test_the_same_seed_goes_the_same_way(tight):
     bush, *bolt = bayonet()
     one, again = (escape(bolt, [bush], seed=5, seconds=SECONDS) for _ in range(2))
     assert one.poses.tobytes() == again.poses.tobytes()
-    shell, cube = cube_in_box(0.05)
-    one, again = (escape([cube], [shell], seed=5, seconds=SECONDS) for _ in range(2))
-    assert one == again
+    assert shut_in(0.05) == tight
 
 
 def test_far_is_how_far_the_hulls_get():

@@ -7,11 +7,13 @@ import numpy as np
 import puzzles
 import pytest
 from PIL import Image
+from scipy.optimize import OptimizeResult
 from shapes import box
 from test_contacts import joined
 
 from scadgen.cli.main import main
 from scadgen.emit.mesh import mesh_bytes
+from scadgen.interlock import program
 
 
 def write(folder, meshes, names, kind="stl"):
@@ -131,9 +133,9 @@ def test_the_motion_can_be_seen(run, tmp_path):
         film.seek(film.n_frames - 1)
         last = np.asarray(film.convert("RGB"), dtype=int)
     assert np.abs(middle - first).mean() > 5 * np.abs(last - first).mean() > 0
-    again = tmp_path / "b.gif"
-    run(*files, "--gif", again)
-    assert again.read_bytes() == gif.read_bytes()
+    again = tmp_path / "b.png"
+    run(*files, "--png", again)
+    assert again.read_bytes() == png.read_bytes()
     with Image.open(io.BytesIO(png.read_bytes())) as picture:
         assert picture.size == (1200, 900)
 
@@ -193,6 +195,9 @@ def test_other_requests_that_cannot_be_met_are_refused(refused, tmp_path):
     assert "--hold key: must be one of slot, rail, bar" in refused(*files, "--hold", "key")
     assert "holds all parts" in refused(*files, "--hold", "slot,rail,bar")
     assert "tolerance = -1" in refused(*files, "--tolerance", "-1")
+    (tmp_path / "film.gif").mkdir()
+    for folder in ("film.gif", "nowhere/film.gif"):
+        assert "must be a file in a folder" in refused(*files, "--gif", tmp_path / folder)
     (tmp_path / "other").mkdir()
     (twin,) = write(tmp_path / "other", [box((9, 9, 9), (10, 10, 10))], ["bar"])
     assert "a part bar already" in refused(*files, twin)
@@ -201,3 +206,10 @@ def test_other_requests_that_cannot_be_met_are_refused(refused, tmp_path):
     (inside,) = write(tmp_path, [box((0, 0, 0), (2, 1, 1))], ["inside"])
     err = refused(*files, inside)
     assert "slot and inside overlap by 2 mm3" in err
+
+
+def test_a_solver_that_fails_gives_its_status_and_no_verdict(refused, tmp_path, monkeypatch):
+    files = write(tmp_path, puzzles.three_piece_burr(), BURR)
+    failed = OptimizeResult(status=4, message="numerical\ndifficulties", x=None)
+    monkeypatch.setattr(program, "linprog", lambda *_, **__: failed)
+    assert "status 4, numerical difficulties" in refused(*files)

@@ -12,8 +12,17 @@ import numpy as np
 from scadgen.check.result import Result
 from scadgen.errors import ScadgenError
 from scadgen.frame.placement import Placement
-from scadgen.joint.joint import DETAILS, Detail, Joint, check_footprint, make_joint
-from scadgen.joint.weave import Weave
+from scadgen.joint.joint import (
+    DETAILS,
+    Detail,
+    Joint,
+    check_footprint,
+    make_joint,
+    site_curves,
+)
+from scadgen.joint.lattice import Lattice, make_lattice, without_corners
+from scadgen.joint.tidy import corners_in_the_way
+from scadgen.joint.weave import SiteCurve, Weave
 from scadgen.kit.build import Request, build
 from scadgen.kit.model import Kit
 from scadgen.kit.store import dumps
@@ -27,6 +36,7 @@ __all__ = [
     "footprint",
     "gaps",
     "joint_of",
+    "lattice_of",
     "partition",
     "placed",
     "same",
@@ -219,6 +229,16 @@ def _weave(kit: Kit) -> Weave:
 
 def joint_of(kit: Kit, detail: Detail) -> Joint:
     """The kit's joint at some detail, on the kit's own lattice."""
-    count = kit.valence
-    edges = [2 * math.pi * n / count for n in range(count)]
-    return make_joint(edges, _weave(kit), detail, int(kit.figures["lattice_extra"]))
+    return make_joint(_edges(kit), _weave(kit), detail, int(kit.figures["lattice_extra"]))
+
+
+def lattice_of(kit: Kit, detail: Detail) -> tuple[Lattice, tuple[SiteCurve, ...]]:
+    """Its lattice and its site curves alone."""
+    weave, extra = _weave(kit), int(kit.figures["lattice_extra"])
+    lattice = make_lattice(_edges(kit), weave.ring_ratio, detail.cells, extra)
+    curves = site_curves(lattice.edges, weave, detail.samples)
+    return without_corners(lattice, corners_in_the_way(lattice, curves)), curves
+
+
+def _edges(kit: Kit) -> list[float]:
+    return [2 * math.pi * n / kit.valence for n in range(kit.valence)]

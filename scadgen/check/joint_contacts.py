@@ -1,8 +1,10 @@
 """The contacts of a joint from its construction, where no touching faces need be looked for.
 
-A wall's triangle is a contact of its connector with the one whose curve is the next nearest
-there; halves touch along their cut; a peg touches its socket with four sides, and its tube
-stands on the halves' face.  Lengths are in sides, without clearance.
+Whole connectors touch on the exact walls, where two curves are nearest and equally far: there
+are no facets that could lock by themselves.  In a split joint a wall's triangle is a contact of
+its connector with the one whose curve is the next nearest there; halves touch along their cut; a
+peg touches its socket with four sides, and its tube stands on the halves' face.  Lengths are in
+sides, without clearance.
 """
 
 from __future__ import annotations
@@ -15,35 +17,74 @@ import numpy as np
 
 from scadgen.interlock.contacts import Contacts, Mesh
 from scadgen.joint.joint import Joint
+from scadgen.joint.lattice import Lattice
 from scadgen.joint.pieces import SPLIT
+from scadgen.joint.place import distances, place
 from scadgen.joint.surface import Surface
+from scadgen.joint.walls import Key
+from scadgen.joint.weave import SiteCurve
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["joint_contacts", "whole_contacts"]
+
+#: How much farther than the nearest curve one may be at a wall, in sides: Newton's steps end
+#: nearer than that, and where a third curve is nearer there is no wall.
+_ON_WALL = 1e-7
+
+#: Difference of two distances' slopes below which a wall's normal is unknown.
+_STEEP = 1e-6
 
 #: Contacts: points, normals, numbers of the parts that these go from and to.
 _Found = tuple[Floats, Floats, Ints, Ints]
 
 
-def whole_contacts(made: Joint) -> tuple[list[Mesh], Contacts]:
-    """Contacts of a joint's whole connectors.
+def whole_contacts(lattice: Lattice, curves: Sequence[SiteCurve]) -> tuple[list[Mesh], Contacts]:
+    """Contacts of a joint's whole connectors, where the lattice's edges cross the exact walls.
 
     Parameters
     ----------
-    made
-        The joint.
+    lattice, curves
+        The joint's lattice and site curves.
 
     Returns
     -------
     meshes
-        Their walls where they stand, one an edge.
+        The points where each connector is touched, one mesh an edge, without faces.
     contacts
-        Between these.
+        Between these; normals are those of the exact walls.
     """
-    count = len(made.edges)
-    meshes = [_standing(made, edge, made.connectors[edge]) for edge in range(count)]
-    found = [_at_walls(made, edge, meshes[edge], edge, np.arange(count)) for edge in range(count)]
-    return meshes, _united(found)
+    far = distances(curves, lattice.nodes)
+    keys, pairs = _crossed(far.argmin(axis=0))
+    points = place(lattice, curves, far, keys)
+    found = [curve.distance(points) for curve in curves]
+    away, slope = np.stack([d for d, _ in found]), np.stack([g for _, g in found])
+    row, (first, second) = np.arange(len(points)), pairs.T
+    normals = slope[first, row] - slope[second, row]
+    length = np.linalg.norm(normals, axis=1)
+    farther = np.maximum(away[first, row], away[second, row])
+    sound = np.flatnonzero((farther < away.min(axis=0) + _ON_WALL) & (length > _STEEP))
+    contacts = Contacts(points, normals / np.maximum(length, _STEEP)[:, None], first, second)
+    contacts = contacts.some(sound)
+    nothing = np.empty((0, 3), dtype=np.int64)
+    meshes = [
+        (contacts.points[(contacts.first == n) | (contacts.second == n)], nothing)
+        for n in range(len(curves))
+    ]
+    return meshes, contacts
+
+
+def _crossed(labels: Ints) -> tuple[list[Key], Ints]:
+    """The lattice's edges between two labels, and these, the lower first."""
+    keys: list[Key] = []
+    pairs = []
+    for axis in range(3):
+        after = np.roll(labels, -1, axis)
+        crossed = labels != after
+        if axis:  # only the angle closes on itself
+            np.moveaxis(crossed, axis, 0)[-1] = False
+        keys += [("edge", axis, i, j, k) for i, j, k in np.argwhere(crossed).tolist()]
+        pairs.append(np.column_stack([labels[crossed], after[crossed]]))
+    return keys, np.sort(np.concatenate(pairs), axis=1)
 
 
 def joint_contacts(made: Joint, width: float, length: float) -> tuple[list[Mesh], Contacts]:

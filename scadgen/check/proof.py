@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from scadgen.check.known import known_ways
-from scadgen.check.locking import finer_joint_locks, joint_locks
+from scadgen.check.locking import joint_locks
 from scadgen.check.result import Result
 from scadgen.check.ways import come_apart
 from scadgen.errors import GeometryError
@@ -34,7 +33,7 @@ def proofs(kit: Kit, say: Callable[[str], None] = lambda _: None) -> Iterator[Pr
     say
         Told what takes long.
     """
-    for result in itertools.chain(joint_locks(kit), finer_joint_locks(kit)):
+    for result in joint_locks(kit):
         yield Proof(result)
     for result, way in come_apart(kit, (*kit.ways, *known_ways(kit)), say=say):
         yield Proof(result, way)

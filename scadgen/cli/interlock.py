@@ -104,8 +104,8 @@ def _check_pictures(files: tuple[Path, ...], gif: Path | None, png: Path | None)
         if path.suffix.lower() != ending or path.resolve() in {file.resolve() for file in files}:
             msg = f"{option} {str(path)!r}: must be a file of its own that ends in {ending}"
             raise InputError(msg)
-        if not path.resolve().parent.is_dir():
-            msg = f"{option} {str(path)!r}: must be in a folder that exists"
+        if path.is_dir() or not path.resolve().parent.is_dir():
+            msg = f"{option} {str(path)!r}: must be a file in a folder that exists"
             raise InputError(msg)
 
 

@@ -10,7 +10,7 @@ Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, section 2
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -67,8 +67,7 @@ class Path:
 
     def steps(self) -> Floats:
         """The poses as `through` takes them."""
-        shifts = self._centres() - self.middle
-        return np.hstack([shifts, Rotation.from_matrix(self.poses[:, :3, :3]).as_rotvec()])
+        return np.hstack([self._centres() - self.middle, self._turns().as_rotvec()])
 
     def scaled(self, factor: float) -> Path:
         """The same path for a body `factor` times the size."""
@@ -89,11 +88,15 @@ class Path:
         lengths
             ``(k - 1,) float``, mm.
         """
-        turns = Rotation.from_matrix(self.poses[:, :3, :3])
+        turns = self._turns()
         moved: Floats = np.linalg.norm(np.diff(self._centres(), axis=0), axis=1)
         if len(self.poses) > 1:
             moved += reach * (turns[:-1].inv() * turns[1:]).magnitude()
         return moved
+
+    def _turns(self) -> Rotation:
+        """How the body is turned at each pose."""
+        return Rotation.from_matrix(self.poses[:, :3, :3])
 
     def _centres(self) -> Floats:
         """Where the middle is at each pose."""
@@ -113,21 +116,28 @@ class Path:
         poses
             ``(m, 4, 4) float``.
         """
-        turns = Rotation.from_matrix(self.poses[:, :3, :3])
-        centres = self._centres()
-        start = np.clip(np.floor(times).astype(np.int64), 0, max(len(self.poses) - 2, 0))
-        end = np.minimum(start + 1, len(self.poses) - 1)
-        share = np.asarray(times - start)
-        way = (turns[start].inv() * turns[end]).as_rotvec()
-        turn = (turns[start] * Rotation.from_rotvec(share[:, None] * way)).as_matrix()
-        centre = centres[start] + share[:, None] * (centres[end] - centres[start])
-        found = np.tile(np.eye(4), (len(share), 1, 1))
-        found[:, :3, :3] = turn
-        found[:, :3, 3] = centre - turn @ self.middle
-        # The poses themselves come back unrounded.
-        exact = share == 0
-        found[exact] = self.poses[start[exact]]
-        return found
+        return self.between()(times)
+
+    def between(self) -> Callable[[Floats], Floats]:
+        """The poses at some times, as `at` gives them, quick to ask for again and again."""
+        centres, turns = self._centres(), self._turns()
+        ways = (turns[:-1].inv() * turns[1:]).as_rotvec() if len(turns) > 1 else np.zeros((1, 3))
+
+        def at(times: Floats) -> Floats:
+            start = np.clip(np.floor(times).astype(np.int64), 0, max(len(self.poses) - 2, 0))
+            end = np.minimum(start + 1, len(self.poses) - 1)
+            share = (times - start)[:, None]
+            turn = self.poses[start, :3, :3] @ Rotation.from_rotvec(share * ways[start]).as_matrix()
+            centre = centres[start] + share * (centres[end] - centres[start])
+            found = np.tile(np.eye(4), (len(share), 1, 1))
+            found[:, :3, :3] = turn
+            found[:, :3, 3] = centre - turn @ self.middle
+            # The poses themselves come back unrounded.
+            exact = share[:, 0] == 0
+            found[exact] = self.poses[start[exact]]
+            return found
+
+        return at
 
     def dense(self, reach: float, step: float) -> Floats:
         """All poses and so many between that no point moves farther than a step.
@@ -224,10 +234,10 @@ def narrowest(
     body, rest = united(moving), united(fixed)
     lengths = path.lengths(_reach(path, moving))
     ends = np.concatenate([[0.0], np.cumsum(lengths)])
-    gone, worst = 0.0, look
+    gone, worst, at = 0.0, look, path.between()
     while True:
         time = np.interp(gone, ends, np.arange(len(ends)))
-        gap = float(body.transform(path.at(np.array([time]))[0, :3]).min_gap(rest, look))
+        gap = float(body.transform(at(np.array([time]))[0, :3]).min_gap(rest, look))
         worst = min(worst, gap)
         if gap < least:
             return 0.0

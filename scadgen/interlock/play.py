@@ -16,10 +16,10 @@ from scadgen.errors import InputError
 from scadgen.interlock.assembly import Assembly, extreme_rows
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.program import farthest
-from scadgen.solid.affine import Floats
+from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.gap import overlap_volume
 
-__all__ = ["farthest_motion", "measured", "play"]
+__all__ = ["loosest", "measured", "play"]
 
 #: Rows to add at most in a round, for each unknown.
 _ADD = 5
@@ -59,41 +59,53 @@ def play(assembly: Assembly, part: int, point: Floats) -> Floats:
     ToolError
         The solver gives no answer: its status.
     """
-    travel = np.empty((2, 3))
-    for axis in range(3):
-        for side in range(2):
-            direction = (2 * side - 1) * np.eye(3)[axis]
-            travel[side, axis], _ = farthest_motion(assembly, part, point, direction)
+    travel, chosen = np.empty((2, 3)), extreme_rows(assembly)
+    for axis, side in itertools.product(range(3), range(2)):
+        goal = _goal(assembly, part, point, (2 * side - 1) * np.eye(3)[axis])
+        x, chosen = _farthest(assembly, goal, chosen)
+        travel[side, axis] = np.inf if x is None else goal @ x
     return travel
 
 
-def farthest_motion(
-    assembly: Assembly, part: int, point: Floats, direction: Floats
-) -> tuple[float, Floats]:
-    """Farthest a point of a part moves in a direction, per unit of gap, and how.
+def loosest(assembly: Assembly, points: Floats) -> tuple[float, Floats]:
+    """Farthest that a point of any free part moves along an axis, per unit of gap, and how.
 
     Parameters
     ----------
-    assembly, part, point
-        As for `play`.
-    direction
-        ``(3,) float``, a unit vector.
+    assembly
+        The assembly; it should be locked.
+    points
+        ``(parts, 3) float``: a point that moves with each part.
 
     Returns
     -------
     travel
-        Infinite where the part is free to go.
+        Infinite where a part is free to go.
     steps
         ``(parts, 6) float``: each part's translation and rotation vector about its middle,
         per unit of gap; zeros where the travel is infinite.
 
     Raises
     ------
-    InputError
-        The part is held, or there is none of that number.
     ToolError
         The solver gives no answer: its status.
     """
+    farthest_yet, steps = 0.0, np.zeros((len(assembly.middles), 6))
+    chosen = extreme_rows(assembly)
+    for part, direction in itertools.product(assembly.free, np.vstack([np.eye(3), -np.eye(3)])):
+        goal = _goal(assembly, part, points[part], direction)
+        x, chosen = _farthest(assembly, goal, chosen)
+        if x is None:
+            return np.inf, np.zeros_like(steps)
+        if goal @ x > farthest_yet:
+            farthest_yet = float(goal @ x)
+            steps[list(assembly.free)] = x.reshape(-1, 6)
+    steps[:, 3:] /= assembly.sizes[:, None]
+    return farthest_yet, steps
+
+
+def _goal(assembly: Assembly, part: int, point: Floats, direction: Floats) -> Floats:
+    """How fast a point of a part moves in a direction, by the assembly's unknowns."""
     if part not in assembly.free:
         msg = f"part = {part}: must be one that is not held: {list(assembly.free)}"
         raise InputError(msg)
@@ -101,13 +113,7 @@ def farthest_motion(
     first = 6 * assembly.free.index(part)
     goal = np.zeros(assembly.rows.shape[1])
     goal[first : first + 6] = [*direction, *np.cross(arm, direction)]
-    steps = np.zeros((len(assembly.middles), 6))
-    x = _farthest(assembly, goal)
-    if x is None:
-        return np.inf, steps
-    steps[list(assembly.free)] = x.reshape(-1, 6)
-    steps[:, 3:] /= assembly.sizes[:, None]
-    return float(goal @ x), steps
+    return goal
 
 
 def measured(meshes: Sequence[Mesh], middles: Floats, steps: Floats, gap: float) -> float:
@@ -120,7 +126,7 @@ def measured(meshes: Sequence[Mesh], middles: Floats, steps: Floats, gap: float)
     middles
         ``(parts, 3) float``: what they turn about.
     steps
-        ``(parts, 6) float``: a motion per unit of gap, as `farthest_motion` gives it.
+        ``(parts, 6) float``: a motion per unit of gap, as `loosest` gives it.
     gap
         The gap, in mm.
 
@@ -144,20 +150,23 @@ def measured(meshes: Sequence[Mesh], middles: Floats, steps: Floats, gap: float)
     return low
 
 
-def _farthest(assembly: Assembly, goal: Floats) -> Floats | None:
-    """The x with A x >= -1 that goal . x is largest for; None where it has no end."""
-    chosen, count = extreme_rows(assembly), assembly.rows.shape[0]
+def _farthest(assembly: Assembly, goal: Floats, chosen: Ints) -> tuple[Floats | None, Ints]:
+    """The x with A x >= -1 that goal . x is largest for, None where it has no end.
+
+    Some rows are chosen to begin with; those that it took are given back, for the next goal.
+    """
+    count = assembly.rows.shape[0]
     while True:
         found = farthest(goal, assembly.rows[chosen], 1.0, np.inf)
         if found is None:
             missing = np.setdiff1d(np.arange(count), chosen)
             if not len(missing):
-                return None
+                return None, chosen
             chosen = np.union1d(chosen, missing[:: max(1, len(missing) // max(len(chosen), 1))])
             continue
         separation = assembly.rows @ found.x
         violated = np.flatnonzero(separation < -1 - _TOLERANCE)
         if not len(violated):
-            return found.x
+            return found.x, chosen
         worst = violated[np.argsort(separation[violated], kind="stable")][: _ADD * len(goal)]
         chosen = np.union1d(chosen, worst)
