@@ -15,9 +15,9 @@ from scipy.spatial.transform import Rotation
 from scadgen.errors import InputError
 from scadgen.interlock.assembly import Assembly, extreme_rows
 from scadgen.interlock.contacts import Mesh
+from scadgen.interlock.path import united
 from scadgen.interlock.program import farthest
 from scadgen.solid.affine import Floats, Ints
-from scadgen.solid.gap import overlap_volume
 
 __all__ = ["loosest", "measured", "play"]
 
@@ -135,19 +135,24 @@ def measured(meshes: Sequence[Mesh], middles: Floats, steps: Floats, gap: float)
     share
         Of the motion for that gap: 1 where the first order tells all; at most `_MOST`.
     """
+    solids = [united([mesh]) for mesh in meshes]
     low, high = 0.0, _MOST
     while high - low > _FINE:
         share = (low + high) / 2
         moved = [
-            ((points - middle) @ Rotation.from_rotvec(turn).as_matrix().T + middle + shift, faces)
-            for (points, faces), middle, shift, turn in zip(
-                meshes, middles, *np.split(share * gap * steps, 2, axis=1), strict=True
-            )
+            solid.transform(_pose(middle, share * gap * step))
+            for solid, middle, step in zip(solids, middles, steps, strict=True)
         ]
         pairs = itertools.combinations(moved, 2)
-        clear = all(overlap_volume(*a, *b) <= _NONE * gap**3 for a, b in pairs)
+        clear = all((a ^ b).volume() <= _NONE * gap**3 for a, b in pairs)
         low, high = (share, high) if clear else (low, share)
     return low
+
+
+def _pose(middle: Floats, step: Floats) -> Floats:
+    """The pose after a translation and a rotation about a point, ``(3, 4)``."""
+    turn = Rotation.from_rotvec(step[3:]).as_matrix()
+    return np.column_stack([turn, middle + step[:3] - turn @ middle])
 
 
 def _farthest(assembly: Assembly, goal: Floats, chosen: Ints) -> tuple[Floats | None, Ints]:
