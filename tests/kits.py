@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 
+from scadgen.check.proof import proved
 from scadgen.element.pieces import Piece, add_surface
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.weave import BUILT_IN
@@ -35,6 +36,12 @@ def kit(frame, key="fixed", bore=0.0, detail="draft"):
     """Make a kit."""
     values = {"bore": bore} if bore else {}
     return build(Request(frame, key, detail=detail, values=values))
+
+
+@cache
+def proven():
+    """Make a hexagonal kit with all that is proved of it."""
+    return proved(kit("hexagonal"))
 
 
 @cache
