@@ -198,6 +198,30 @@ def number():
     return found.processId() if found and "kit" in found.arguments() else 0
 
 
+def is_gone(run):
+    """Whether a program has ended, and has left nothing where things lie for a while."""
+    return not Path(f"/proc/{run}").exists() and not left_over()
+
+
+def left_over():
+    return [*Path(tempfile.gettempdir()).glob("scadgen-*")]
+
+
+def percent():
+    """What the progress bar of the open panel says, if it is seen."""
+    return next((bar.value() for bar in visible(QtGui.QProgressBar) if bar.maximum()), 0)
+
+
+def until(there, shown):
+    """Wait, and keep the percentages that are shown meanwhile."""
+
+    def look():
+        shown.extend(filter(None, [percent()]))
+        return there()
+
+    return look
+
+
 def an_engine_that_is_killed_leaves_nothing():
     yield from new_kit_panel()
     ok()
@@ -215,15 +239,15 @@ def cancel_leaves_nothing():
     doc = App.newDocument("Empty")
     ok()
     yield number
+    yield lambda: panel_text() == "computing the joint"
     run = number()
     assert not box_button(QtGui.QDialogButtonBox.Ok).isEnabled()
     assert field(QtGui.QProgressBar, "progress").isVisible()
     cancel()
     yield is_idle
     assert "Stopped; nothing was made" in panel_text(), panel_text()
-    assert not Path(f"/proc/{run}").exists()
+    assert is_gone(run)
     assert (names(doc), doc.UndoCount) == ([], 0)
-    assert not [*Path(tempfile.gettempdir()).glob("scadgen-*")]
     cancel()
     yield is_closed
     App.closeDocument(doc.Name)
@@ -241,9 +265,14 @@ def a_new_kit_is_made_and_undone():
     field(QtGui.QSpinBox, "rows").setValue(2)
     field(QtGui.QWidget, "clearance").setProperty("rawValue", 0.25)
     picture("new_kit")
-    field(QtGui.QCheckBox, "proved").setChecked(False)  # the check proves it below
+    assert field(QtGui.QCheckBox, "proved").isChecked()
+    shown = []
     ok()
+    yield until(lambda: is_closed() or not process(), shown)
     yield is_closed
+    assert shown == sorted(shown), shown
+    assert len({*shown}) > 8, shown
+    assert not left_over()
     doc = App.ActiveDocument
     assert doc.Kit.Clearance.Value == 0.25
     assert doc.Joint.Pieces == 5
@@ -369,6 +398,15 @@ def files_are_written():
     yield is_closed
 
 
+def closing_a_check_stops_it():
+    yield from press("Check")
+    yield number
+    run = number()
+    box_button(QtGui.QDialogButtonBox.Close).click()
+    yield is_closed
+    assert is_gone(run)
+
+
 def a_kit_is_checked():
     doc = App.ActiveDocument
     text = json.loads(doc.Kit.Data)
@@ -381,7 +419,10 @@ def a_kit_is_checked():
     yield lambda: panel("ScadgenCheck")
     # Without a graphics card, drawing the moving bar beside the 3D view takes a processor.
     Gui.getMainWindow().centralWidget().hide()
-    yield lambda: panel_text() and not process()
+    shown = []
+    yield until(lambda: "checks are good" in panel_text(), shown)
+    assert shown == sorted(shown), shown
+    assert len({*shown}) > 20, shown
     Gui.getMainWindow().centralWidget().show()
     table = field(QtGui.QTableWidget, "table")
     rows = [[table.item(r, c).text() for c in range(4)] for r in range(table.rowCount())]
@@ -478,6 +519,7 @@ STEPS = (
     a_part_has_a_clearance_of_its_own,
     assemblies_are_pulled_apart,
     files_are_written,
+    closing_a_check_stops_it,
     a_kit_is_checked,
     kits_are_opened_or_refused,
     lost_behaviour_is_restored,

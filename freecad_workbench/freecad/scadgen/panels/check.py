@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 from freecad.scadgen import document
 from freecad.scadgen.affine import KitError
@@ -20,6 +20,9 @@ from freecad.scadgen.panels.panel import Panel
 from freecad.scadgen.properties import refuse, values_of
 
 __all__ = ["CheckPanel", "Row"]
+
+#: Share of the time after which the kit is made again.
+_MADE = 0.1
 
 translate = App.Qt.translate
 
@@ -64,10 +67,10 @@ class CheckPanel(Panel):
         )
         self.form.table.itemSelectionChanged.connect(self.select)
         self.engine = Engine(self.form)
-        self.engine.said.connect(self.tell)
+        self.engine.went.connect(self._went)
         self.engine.ended.connect(self._ended)
         self._folder = tempfile.TemporaryDirectory(prefix="scadgen-")
-        self._made = False
+        self._made = self._closing = False
 
     def getStandardButtons(self) -> int:
         """Close alone."""
@@ -84,9 +87,12 @@ class CheckPanel(Panel):
             self._ended(Outcome(False, "", str(error)))
 
     def reject(self) -> bool:
-        """Stop and close."""
-        self.engine.ended.disconnect(self._ended)
-        self.engine.stop()
+        """Close, once the engine has stopped and cleared up after itself."""
+        if self.engine.running:
+            self._closing = True
+            self.tell(translate("Scadgen", "Stopping"))
+            self.engine.stop()
+            return False
         self._folder.cleanup()
         self.leave()
         return True
@@ -107,8 +113,17 @@ class CheckPanel(Panel):
         except EngineError as error:
             self._ended(Outcome(False, "", str(error)))
 
+    def _went(self, percent: int, words: str) -> None:
+        """Show how far both runs are: the first makes the kit."""
+        share = percent / 100
+        done = _MADE + (1 - _MADE) * share if self._made else _MADE * share
+        self.show_progress(round(100 * done), words)
+
     def _ended(self, outcome: Outcome) -> None:
-        if outcome.good and self._made:
+        if self._closing:
+            # Not at once: that would delete the engine while it speaks.
+            QtCore.QTimer.singleShot(0, self.reject)
+        elif outcome.good and self._made:
             self._checked(outcome.output)
         elif outcome.good:
             self._remade()
