@@ -1,6 +1,7 @@
 """Kits as objects in FreeCAD without a window: made, saved, opened, edited, refused, exported."""
 
 import csv
+import re
 
 import freecadcmd
 import pytest
@@ -216,3 +217,8 @@ def test_wrong_exports_are_refused_in_one_line(session):
     assert "must fit the bed of 60 x 50 mm" in found["bed"]
     assert "cannot be written to" in found["folder"]
     assert not any("\n" in str(words) for words in found.values())
+
+
+def test_users_can_have_freecad_test_the_workbench(tmp_path):
+    said = freecadcmd.call(linked(tmp_path), "-t", "freecad.scadgen.self_test")
+    assert re.search(r"^Ran 6 tests in .*\n\nOK$", said, re.MULTILINE), said

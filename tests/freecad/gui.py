@@ -135,6 +135,7 @@ def the_workbench_is_there():
     assert all(not button(name).icon().isNull() for name in BUTTONS)
     menus = [m for m in window.menuBar().findChildren(QtGui.QMenu) if m.title() == "Scadgen"]
     assert [a.objectName() for a in menus[0].actions() if not a.isSeparator()] == shown
+    assert "freecad.scadgen.self_test" in App.__unit_test__
     first = {"NewKit", "OpenKit", "Preferences"}
     yield lambda: {name for name in BUTTONS if button(name).isEnabled()} == first
 
