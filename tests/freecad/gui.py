@@ -153,9 +153,9 @@ def program(name, text):
     return str(path)
 
 
-def an_engine_that_cannot_work_is_said_so():
-    yield from new_kit_panel()
-    for path, words in (
+def bad_engines():
+    """Engines that cannot work, and what is said of each."""
+    return (
         (
             str(PLACES["folder"] / "nowhere"),
             "no such program; say where it is under Edit > Preferences",
@@ -164,7 +164,13 @@ def an_engine_that_cannot_work_is_said_so():
         (program("newer", "echo scadgen, version 9.1.0"), "is scadgen 9.1.0, this workbench needs"),
         (program("broken", "echo what is broken >&2; exit 3"), "what is broken"),
         (program("mute", "exit 3"), "left with status 3 and said nothing"),
-    ):
+        (program("idle", "echo scadgen, version 0.1.0"), "no kit can be read there"),
+    )
+
+
+def an_engine_that_cannot_work_is_said_so():
+    yield from new_kit_panel()
+    for path, words in bad_engines():
         settings().SetString("Engine", path)
         ok()
         yield is_idle
@@ -254,6 +260,20 @@ def cancel_leaves_nothing():
     App.closeDocument(doc.Name)
 
 
+def an_engine_that_does_not_listen_is_stopped():
+    settings().SetString("Engine", program("deaf", "trap '' TERM; exec sleep 60"))
+    yield from new_kit_panel()
+    ok()
+    yield lambda: process() and process().processId()
+    run = process().processId()
+    cancel()
+    yield is_idle
+    assert is_gone(run)
+    cancel()
+    yield is_closed
+    settings().SetString("Engine", str(PLACES["engine"]))
+
+
 def a_new_kit_is_made_and_undone():
     yield from new_kit_panel()
 
@@ -323,14 +343,18 @@ def a_part_has_a_clearance_of_its_own():
 
     found, words = menu()
     assert words == ["Give it a clearance of its own"], words
+    steps = doc.UndoCount
     found.actions()[0].trigger()
+    assert doc.UndoCount == steps + 1
     doc.Half.Clearance = 0.1
     doc.recompute()
     assert doc.Half.Volume.Value > volume
     assert doc.Connector.Volume.Value == other
     found, words = menu()
     assert words == ["Let it follow its kit again"], words
+    steps = doc.UndoCount
     found.actions()[0].trigger()
+    assert doc.UndoCount == steps + 1
     assert doc.Half.Volume.Value == volume
     yield lambda: True
 
@@ -399,6 +423,18 @@ def files_are_written():
     yield is_closed
 
 
+def a_check_that_the_engine_cannot_make_is_said_so():
+    for path, words in bad_engines():
+        settings().SetString("Engine", path)
+        yield from press("Check")
+        yield lambda: panel("ScadgenCheck")
+        yield lambda: not process()
+        assert words in panel_text(), panel_text()
+        box_button(QtGui.QDialogButtonBox.Close).click()
+        yield is_closed
+    settings().SetString("Engine", str(PLACES["engine"]))
+
+
 def closing_a_check_stops_it():
     yield from press("Check")
     yield number
@@ -431,7 +467,9 @@ def a_kit_is_checked():
     assert rows[0] == ["FAILED", "half is what the engine makes", "another", "the same"], rows[:2]
     others = [row[0] for row in rows[1:] if row[1].endswith("is what the engine makes")]
     assert others == ["ok"] * 6, rows
-    assert [o.Name for o in Gui.Selection.getSelection()] == ["Half"]
+    chosen = {o.Name for o in Gui.Selection.getSelection()}
+    assert chosen == {"Half", *(o.Name for o in doc.Half.InList if o.TypeId == "App::Link")}
+    assert "Joint_half_a" in chosen
     picture("check", width=640)
     box_button(QtGui.QDialogButtonBox.Close).click()
     yield is_closed
@@ -469,6 +507,9 @@ def kits_are_opened_or_refused():
         else:
             yield lambda: "Joint" in names(doc)
     assert doc.Joint.Pieces == 5
+    assert doc.UndoCount == 1
+    Gui.runCommand("Std_Undo")
+    assert names(doc) == []
 
 
 def lost_behaviour_is_restored():
@@ -478,8 +519,10 @@ def lost_behaviour_is_restored():
     doc.Kit.Clearance = 0.1
     doc.recompute()
     assert doc.Half.Shape.Volume == volume
+    steps = doc.UndoCount
     yield from press("Restore")
     yield lambda: doc.Kit.Proxy is not None
+    assert doc.UndoCount == steps + 1
     assert doc.Half.ViewObject.Proxy is not None
     assert doc.Half.Shape.Volume > volume
 
@@ -515,11 +558,13 @@ STEPS = (
     what_the_engine_refuses_is_said,
     an_engine_that_is_killed_leaves_nothing,
     cancel_leaves_nothing,
+    an_engine_that_does_not_listen_is_stopped,
     a_new_kit_is_made_and_undone,
     each_part_is_added_and_undone,
     a_part_has_a_clearance_of_its_own,
     assemblies_are_pulled_apart,
     files_are_written,
+    a_check_that_the_engine_cannot_make_is_said_so,
     closing_a_check_stops_it,
     a_kit_is_checked,
     kits_are_opened_or_refused,

@@ -12,7 +12,7 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 from freecad.scadgen import document
-from freecad.scadgen.affine import KitError
+from freecad.scadgen.affine import KitError, read_kit
 from freecad.scadgen.engine import Engine, EngineError, Outcome
 from freecad.scadgen.kit_object import data_of
 from freecad.scadgen.names import KINDS
@@ -55,6 +55,7 @@ class CheckPanel(Panel):
     def __init__(self, kit: Any) -> None:
         super().__init__()
         self.kit = kit
+        self._document = kit.Document.Name
         self.rows: list[Row] = []
         self.form.table.setColumnCount(4)
         self.form.table.setHorizontalHeaderLabels(
@@ -65,6 +66,7 @@ class CheckPanel(Panel):
                 translate("Scadgen", "Must be"),
             ]
         )
+        self.form.table.verticalHeader().hide()
         self.form.table.itemSelectionChanged.connect(self.select)
         self.engine = Engine(self.form)
         self.engine.went.connect(self._went)
@@ -101,8 +103,10 @@ class CheckPanel(Panel):
         """Select the objects that the chosen line is about."""
         Gui.Selection.clearSelection()
         chosen = {item.row() for item in self.form.table.selectedItems()}
+        doc = App.listDocuments().get(self._document)
         for name in {name for n in chosen for name in self.rows[n].objects}:
-            Gui.Selection.addSelection(self.kit.Document.Name, name)
+            if doc and doc.getObject(name):
+                Gui.Selection.addSelection(self._document, name)
 
     def _parts(self) -> list[Any]:
         return [p for p in document.ours(self.kit.Document, "part") if p.Kit == self.kit]
@@ -123,17 +127,28 @@ class CheckPanel(Panel):
         if self._closing:
             # Not at once: that would delete the engine while it speaks.
             QtCore.QTimer.singleShot(0, self.reject)
-        elif outcome.good and self._made:
-            self._checked(outcome.output)
-        elif outcome.good:
-            self._remade()
-        else:
+            return
+        try:
+            self._go_on(outcome)
+        except KitError as error:
             self._show()
-            self.tell(outcome.message, bad=True)
+            self.tell(str(error), bad=True)
+        except ReferenceError:
+            self.form.progress.hide()
+            self.tell(translate("Scadgen", "The kit was deleted meanwhile"), bad=True)
+
+    def _go_on(self, outcome: Outcome) -> None:
+        if not outcome.good:
+            raise KitError(outcome.message)
+        if self._made:
+            self._checked(outcome.output)
+        else:
+            self._remade()
 
     def _remade(self) -> None:
         """Compare what the engine made with what is in the document, and check it."""
         folder = Path(self._folder.name) / "kit"
+        read_kit(folder)  # says what is wrong, if anything is
         made = json.loads((folder / "kit.json").read_text(encoding="utf-8"))["parts"]
         here = json.loads(self.kit.Data)["parts"]
         for part in KINDS:
@@ -147,10 +162,9 @@ class CheckPanel(Panel):
 
     def _checked(self, output: str) -> None:
         """Add what the engine found."""
-        for r in json.loads(output):
-            about = next((p for p in KINDS if p in r["check"].replace(":", " ").split()), "")
-            row = Row(r["good"], r["check"], r["figure"], r["bound"], self._about(about))
-            self.rows.append(row)
+        for good, check, figure, bound in _results(output):
+            about = next((p for p in KINDS if p in check.replace(":", " ").split()), "")
+            self.rows.append(Row(good, check, figure, bound, self._about(about)))
         self._show()
         bad = sum(not row.good for row in self.rows)
         text = translate("Scadgen", "{} of {} checks are good")
@@ -158,7 +172,10 @@ class CheckPanel(Panel):
         self.tell(message, bad=bad > 0)
 
     def _about(self, kind: str) -> tuple[str, ...]:
-        return tuple(part.Name for part in self._parts() if part.Kind == kind)
+        """The parts of a kind, and the links that show them in joints and frames."""
+        parts = [part for part in self._parts() if part.Kind == kind]
+        links = [obj for part in parts for obj in part.InList if obj.isDerivedFrom("App::Link")]
+        return tuple(obj.Name for obj in (*parts, *links))
 
     def _show(self) -> None:
         """Fill the table, what is bad first, and choose its first line if it is bad."""
@@ -170,9 +187,25 @@ class CheckPanel(Panel):
             verdict = translate("Scadgen", "ok") if row.good else translate("Scadgen", "FAILED")
             for column, text in enumerate((verdict, row.check, row.figure, row.bound)):
                 table.setItem(n, column, QtGui.QTableWidgetItem(text))
+                table.item(n, column).setToolTip(text)
         table.resizeColumnsToContents()
         if self.rows and not self.rows[0].good:
             table.selectRow(0)
+
+
+def _results(output: str) -> list[tuple[bool, str, str, str]]:
+    """What the engine found: whether it is good, what was checked, what it is and must be.
+
+    Raises
+    ------
+    KitError
+        It gave no such results.
+    """
+    try:
+        return [(r["good"], r["check"], r["figure"], r["bound"]) for r in json.loads(output)]
+    except (ValueError, KeyError, TypeError) as error:
+        text = translate("Scadgen", "scadgen check gave no results: try it at a terminal")
+        raise KitError(text) from error
 
 
 def _sound(part: Any) -> Row | None:

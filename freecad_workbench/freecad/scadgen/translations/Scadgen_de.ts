@@ -275,6 +275,10 @@
    <translation>Der Rechenkern arbeitet</translation>
   </message>
   <message>
+   <source>The kit was deleted meanwhile</source>
+   <translation>Der Bausatz wurde inzwischen gelöscht</translation>
+  </message>
+  <message>
    <source>Tube</source>
    <translation>Rohr</translation>
   </message>
@@ -297,6 +301,10 @@
   <message>
    <source>say where it is under Edit &gt; Preferences &gt; Scadgen</source>
    <translation>geben Sie unter Bearbeiten &gt; Einstellungen &gt; Scadgen an, wo es ist</translation>
+  </message>
+  <message>
+   <source>scadgen check gave no results: try it at a terminal</source>
+   <translation>scadgen check lieferte keine Ergebnisse: am Terminal ausprobieren</translation>
   </message>
   <message>
    <source>scadgen was killed or crashed midway; nothing was made: try again</source>
