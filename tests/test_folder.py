@@ -6,9 +6,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from kits import KINDS, kit, named
+from kits import KINDS, kit, named, proved_kit
 
-from scadgen.check.proof import proved
 from scadgen.emit.folder import files_of, write_kit
 from scadgen.errors import InputError
 from scadgen.kit.build import Request, build
@@ -211,7 +210,7 @@ def test_the_kit_can_be_moved(tmp_path):
 
 def test_a_proved_kit_shows_how_its_joint_is_put_together(tmp_path):
     folder = tmp_path / "kit"
-    made = proved(kit("hexagonal"))
+    made = proved_kit("hexagonal")
     write_kit(made, folder)
     assert {path.name for path in folder.iterdir()} == {*FILES, "assembly.png"}
     readme = (folder / "README.md").read_text()

@@ -7,10 +7,9 @@ import freecadcmd
 import pytest
 import trimesh
 from kits import kit
-from workbench import linked
+from workbench import linked, objects
 
 from scadgen.frame.layout import LAYOUTS, bill
-from scadgen.kit.store import dumps
 from scadgen.solid.mesh import volume
 
 NAMES = {
@@ -36,22 +35,9 @@ def made():
 
 
 @pytest.fixture(scope="module")
-def session(made, tmp_path_factory):
+def session():
     """What three starts of FreeCAD found: with the workbench, without it, with it again."""
-    place = tmp_path_factory.mktemp("objects")
-    ours, bare, folder = linked(place / "ours"), place / "bare", place / "folder"
-    bare.mkdir()
-    folder.mkdir()
-    (place / "kit.json").write_text(dumps(made), encoding="utf-8")
-    places = {"kit": str(place / "kit.json"), "folder": str(folder)}
-
-    def run(home, *steps):
-        return freecadcmd.run("objects.py", home, steps=steps, **places)
-
-    found, said = run(ours, "make", "edit", "refuse", "old")
-    without, _ = run(bare, "bare")
-    again, _ = run(ours, "restore", "export")
-    return {**found, **without, **again, "said": said, "folder": folder}
+    return objects()
 
 
 def test_every_part_has_the_engines_volume(session, made):

@@ -117,7 +117,7 @@ def is_closed():
 def process():
     """The program that a task panel runs."""
     found = panel("ScadgenNewKit") or panel("ScadgenCheck")
-    return found.findChild(QtCore.QProcess)
+    return found and found.findChild(QtCore.QProcess)
 
 
 def is_idle():
