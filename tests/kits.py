@@ -7,10 +7,11 @@ from shared import once
 
 from scadgen.check.proof import proved
 from scadgen.element.pieces import Piece, add_surface
-from scadgen.emit.folder import write_kit
+from scadgen.emit.scad import scad
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import VALENCE, Request, build
+from scadgen.kit.store import dumps
 from scadgen.solid.affine import PARAMETERS
 from scadgen.solid.shell import Shell
 
@@ -44,11 +45,13 @@ def proved_kit(frame):
 
 
 def written(kind, detail="draft"):
-    """The folder of a kit, for reading alone."""
+    """A folder with a kit and its OpenSCAD file, for reading alone."""
 
     def write(place):
-        write_kit(kit(*kind, detail), place / "kit")
-        return place / "kit"
+        made = kit(*kind, detail)
+        (place / "kit.json").write_text(dumps(made), encoding="utf-8")
+        (place / f"{made.frame}.scad").write_text(scad(made), encoding="utf-8")
+        return place
 
     return once(f"written-{named(kind)}-{detail}", write)
 

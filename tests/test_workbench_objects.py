@@ -199,6 +199,7 @@ def test_what_is_selected_is_exported_where_it_stands(session):
 def test_wrong_exports_are_refused_in_one_line(session):
     found = session["export"]
     assert found["nothing"].startswith("nothing is selected")
+    assert found["same"].startswith("Half.step: two of what is selected would be this file")
     assert found["other"].startswith("Box: not a part, joint or frame of a kit")
     assert "must fit the bed of 60 x 50 mm" in found["bed"]
     assert "cannot be written to" in found["folder"]

@@ -73,7 +73,9 @@ def find() -> str:
         found = shutil.which(str(program))
         if found:
             return found
-    text = translate("Scadgen", "scadgen: not found; install it (pip install scadgen-truss), or {}")
+    text = translate(
+        "Scadgen", "scadgen: not found; install it as this workbench's README says, or {}"
+    )
     raise EngineError(text.format(_where()))
 
 

@@ -138,7 +138,7 @@ class NewKitPanel(Panel):
     def _working(self, working: bool) -> None:  # noqa: FBT001  as Qt has it
         self.form.inputs.setEnabled(not working)
         self.form.progress.setVisible(working)
-        self.form.progress.setRange(0, 0)
+        self.form.progress.setValue(0)
         self.enable_ok(not working)
 
     def _ended(self, outcome: Outcome) -> None:

@@ -45,7 +45,6 @@ class Panel:
 
     def show_progress(self, percent: int, words: str) -> None:
         """Show how far the engine is, and what it does."""
-        self.form.progress.setRange(0, 100)
         self.form.progress.setValue(percent)
         self.tell(words)
 

@@ -287,6 +287,10 @@
    <translation>Zweiseitiges Element</translation>
   </message>
   <message>
+   <source>Written to {}: {}</source>
+   <translation>Nach {} geschrieben: {}</translation>
+  </message>
+  <message>
    <source>another</source>
    <translation>ein anderes</translation>
   </message>
@@ -311,8 +315,8 @@
    <translation>scadgen wurde mittendrin beendet oder ist abgestürzt; nichts wurde erzeugt: versuchen Sie es noch einmal</translation>
   </message>
   <message>
-   <source>scadgen: not found; install it (pip install scadgen-truss), or {}</source>
-   <translation>scadgen: nicht gefunden; installieren Sie es (pip install scadgen-truss), oder {}</translation>
+   <source>scadgen: not found; install it as this workbench's README says, or {}</source>
+   <translation>scadgen: nicht gefunden; installieren Sie es wie im README dieses Arbeitsbereichs, oder {}</translation>
   </message>
   <message>
    <source>the same</source>
@@ -321,10 +325,6 @@
   <message>
    <source>{:.1f} sides, {:.1f} mm</source>
    <translation>{:.1f} Seiten, {:.1f} mm</translation>
-  </message>
-  <message>
-   <source>{} files written to {}: {}</source>
-   <translation>{} Dateien nach {} geschrieben: {}</translation>
   </message>
   <message>
    <source>{} is in its ranges</source>
