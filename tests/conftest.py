@@ -2,6 +2,7 @@
 
 import os
 
+import shared  # noqa: F401  before the workers start, who use its folder
 from hypothesis import settings
 
 # Matrices here are small, and several workers share the machine.

@@ -47,19 +47,25 @@ _SETTINGS = """\
 
 def run(script, home, *, timeout=120, window=False, **given):
     """What `main` of a script gives back, and all that FreeCAD said."""
-    program = "freecad" if window else "freecadcmd"
-    assert shutil.which(program), f"{program}: not found; make setup installs it"
     result, runner = home / "result.json", home / "runner.py"
     result.unlink(missing_ok=True)
     names = {"script": str(SCRIPTS / script), "given": json.dumps(given), "result": str(result)}
     runner.write_text(_RUNNER.format(**names) + (_SOON if window else _AT_ONCE))
+    said = call(home, runner, timeout=timeout, window=window)
+    return json.loads(result.read_text()), said
+
+
+def call(home, *arguments, timeout=120, window=False):
+    """What FreeCAD says, called with these arguments; it must have nothing to complain of."""
+    program = "freecad" if window else "freecadcmd"
+    assert shutil.which(program), f"{program}: not found; make setup installs it"
     (home / "user.cfg").write_text(_SETTINGS)
     # A home of its own, and none of our packages.
     left_out = ("PYTHONPATH", "PYTHONHOME", "VIRTUAL_ENV")
     environment = {name: v for name, v in os.environ.items() if name not in left_out}
     homes = ("FREECAD_USER_HOME", "HOME", "XDG_RUNTIME_DIR")
     done = subprocess.run(
-        [*(_DISPLAY if window else ()), program, str(runner)],
+        [*(_DISPLAY if window else ()), program, *map(str, arguments)],
         env=environment | {name: str(home) for name in homes} | {"LIBGL_ALWAYS_SOFTWARE": "1"},
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
@@ -70,4 +76,4 @@ def run(script, home, *, timeout=120, window=False, **given):
     said = done.stdout.decode("utf-8", "replace")
     assert done.returncode == 0, said
     assert "Traceback" not in said, said
-    return json.loads(result.read_text()), said
+    return said

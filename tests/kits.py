@@ -1,15 +1,17 @@
-"""Real kits and joints, each made once a worker, and random settings inside their ranges."""
+"""Real kits and joints, each made once a run, and random settings inside their ranges."""
 
 import math
-from functools import cache
 
 import numpy as np
+from shared import once
 
 from scadgen.check.proof import proved
 from scadgen.element.pieces import Piece, add_surface
+from scadgen.emit.scad import scad
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import VALENCE, Request, build
+from scadgen.kit.store import dumps
 from scadgen.solid.affine import PARAMETERS
 from scadgen.solid.shell import Shell
 
@@ -31,24 +33,36 @@ def named(kind):
     return f"{frame}-{key}-{'bored' if bore else 'solid'}"
 
 
-@cache
 def kit(frame, key="fixed", bore=0.0, detail="draft"):
-    """Make a kit."""
-    values = {"bore": bore} if bore else {}
-    return build(Request(frame, key, detail=detail, values=values))
+    """A kit, not proved."""
+    request = Request(frame, key, detail=detail, values={"bore": bore} if bore else {})
+    return once(f"kit-{frame}-{key}-{bore}-{detail}", lambda _: build(request))
 
 
-@cache
-def proven():
-    """Make a hexagonal kit with all that is proved of it."""
-    return proved(kit("hexagonal"))
+def proved_kit(frame):
+    """A kit with all that is proved of it."""
+    return once(f"proved-{frame}", lambda _: proved(kit(frame)))
 
 
-@cache
+def written(kind, detail="draft"):
+    """A folder with a kit and its OpenSCAD file, for reading alone."""
+
+    def write(place):
+        made = kit(*kind, detail)
+        (place / "kit.json").write_text(dumps(made), encoding="utf-8")
+        (place / f"{made.frame}.scad").write_text(scad(made), encoding="utf-8")
+        return place
+
+    return once(f"written-{named(kind)}-{detail}", write)
+
+
 def joint(frame, detail="draft"):
-    """Make the joint of a frame's solid kit with a fixed key, on the kit's lattice."""
+    """The joint of a frame's solid kit with a fixed key, on the kit's lattice."""
     extra = int(kit(frame, detail=detail).figures["lattice_extra"])
-    return make_joint(regular(VALENCE[frame]), WEAVES[frame], DETAILS[detail], extra)
+    edges, weave = regular(VALENCE[frame]), WEAVES[frame]
+    return once(
+        f"joint-{frame}-{detail}", lambda _: make_joint(edges, weave, DETAILS[detail], extra)
+    )
 
 
 def regular(count):

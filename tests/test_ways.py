@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kits import kit, mesh, proven, regular
+from kits import kit, mesh, proved_kit, regular
 from shapes import box
 
 import scadgen.joint.joint as joints
@@ -51,7 +51,7 @@ def test_known_ways_hold_at_any_size_and_with_a_bore(side):
 
 
 def test_a_kit_carries_what_is_proved_of_it():
-    made = proven()
+    made = proved_kit("hexagonal")
     assert len(made.ways) == 4
     assert "half A comes out" in made.verdicts
     assert "play of a tube's tip" in made.verdicts
@@ -62,7 +62,7 @@ def test_a_kit_carries_what_is_proved_of_it():
 
 
 def test_a_way_through_a_wall_is_not_believed_and_another_is_found():
-    made = proven()
+    made = proved_kit("hexagonal")
     peg, half, *_ = made.ways
     lifted = np.zeros((2, 6))
     lifted[1, 2] = 10.0
@@ -81,7 +81,7 @@ def test_a_joint_without_clearance_is_not_proved_to_come_apart():
 
 
 def damaged(change):
-    document = json.loads(dumps(proven()))
+    document = json.loads(dumps(proved_kit("hexagonal")))
     change(document["ways"][0])
     return json.dumps(document)
 

@@ -1,14 +1,13 @@
 """The wheel, installed outside of the checkout, makes a kit."""
 
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
-
-ROOT = Path(__file__).parent.parent
+from shared import once
+from wheels import wheel
 
 
 def run(*command, cwd):
@@ -29,21 +28,16 @@ def run(*command, cwd):
 
 
 @pytest.fixture(scope="module")
-def installed(tmp_path_factory):
-    """Folder of programs of a fresh environment with the wheel, built from a copy, in it.
+def installed():
+    """Folder of programs of a fresh environment with the wheel in it.
 
     What the wheel needs is taken from the environment that runs the tests; the wheel itself
     and its metadata are its own.
     """
-    place = tmp_path_factory.mktemp("wheel")
-    left_out = shutil.ignore_patterns(
-        ".git", ".venv", ".cache", "out", "node_modules", "__pycache__", ".*_cache"
-    )
-    shutil.copytree(ROOT, place / "tree", ignore=left_out)
-    run(sys.executable, "-m", "hatchling", "build", "-t", "wheel", cwd=place / "tree")
-    (wheel,) = (place / "tree" / "dist").glob("*.whl")
-    moved = shutil.move(wheel, place)
-    shutil.rmtree(place / "tree")
+    return once("installed", _install)
+
+
+def _install(place):
     run(sys.executable, "-m", "venv", "--without-pip", place / "venv", cwd=place)
     python = place / "venv" / "bin" / "python"
     (site,) = (place / "venv" / "lib").glob("python3*/site-packages")
@@ -52,7 +46,7 @@ def installed(tmp_path_factory):
     )
     (site / "requirements.pth").write_text(ours)
     install = (sys.executable, "-m", "pip", "--python", python, "install", "--no-index", "--quiet")
-    run(*install, "--no-deps", "--force-reinstall", moved, cwd=place)
+    run(*install, "--no-deps", "--force-reinstall", wheel(), cwd=place)
     return python.parent
 
 

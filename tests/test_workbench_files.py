@@ -12,6 +12,7 @@ from defusedxml import ElementTree
 from hypothesis import given
 from hypothesis import strategies as st
 from kits import kit
+from python38 import newer
 
 import scadgen
 from scadgen.emit.macro import workbench
@@ -136,6 +137,31 @@ def test_all_versions_are_the_same():
     assert (workbench() / icon).is_file()
     assert not (workbench() / "freecad" / "__init__.py").exists()
     assert (workbench() / "LICENSE").read_text() == (ROOT / "LICENSE").read_text()
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("rows = list[int]", ["list[int]"]),
+        ("from collections.abc import Callable\nF = Callable[[], int]", ["Callable[[], int]"]),
+        ("def f(x: list[int]): ...", ["list[int]"]),
+        ("from __future__ import annotations\ndef f(x: list[int]) -> int | None: ...", []),
+        ("from __future__ import annotations\nx: int | None = {**a}[1]", []),
+        ("a = b | {1: 2}", ["b | {1: 2}"]),
+        ("for a, b in zip(c, d, strict=True): ...", ["zip(c, d, strict=True)"]),
+        ("a = 'b'.removeprefix('c')", ["'b'.removeprefix"]),
+        ("from functools import cache", ["cache"]),
+    ],
+)
+def test_what_is_newer_than_python_3_8_is_noticed(text, found):
+    assert newer(text) == found
+
+
+def test_the_workbench_runs_on_the_python_that_it_asks_for():
+    assert "<pythonmin>3.8</pythonmin>" in (workbench() / "package.xml").read_text()
+    found = {path.name: newer(path.read_text("utf-8")) for path in workbench().rglob("*.py")}
+    assert len(found) > 30
+    assert {name: what for name, what in found.items() if what} == {}
 
 
 def test_every_icon_is_there_and_is_drawn():

@@ -1,15 +1,15 @@
 """Kits as objects in FreeCAD without a window: made, saved, opened, edited, refused, exported."""
 
 import csv
+import re
 
 import freecadcmd
 import pytest
 import trimesh
 from kits import kit
-from workbench import linked
+from workbench import linked, objects
 
 from scadgen.frame.layout import LAYOUTS, bill
-from scadgen.kit.store import dumps
 from scadgen.solid.mesh import volume
 
 NAMES = {
@@ -35,22 +35,9 @@ def made():
 
 
 @pytest.fixture(scope="module")
-def session(made, tmp_path_factory):
+def session():
     """What three starts of FreeCAD found: with the workbench, without it, with it again."""
-    place = tmp_path_factory.mktemp("objects")
-    ours, bare, folder = linked(place / "ours"), place / "bare", place / "folder"
-    bare.mkdir()
-    folder.mkdir()
-    (place / "kit.json").write_text(dumps(made), encoding="utf-8")
-    places = {"kit": str(place / "kit.json"), "folder": str(folder)}
-
-    def run(home, *steps):
-        return freecadcmd.run("objects.py", home, steps=steps, **places)
-
-    found, said = run(ours, "make", "edit", "refuse", "old")
-    without, _ = run(bare, "bare")
-    again, _ = run(ours, "restore", "export")
-    return {**found, **without, **again, "said": said, "folder": folder}
+    return objects()
 
 
 def test_every_part_has_the_engines_volume(session, made):
@@ -212,7 +199,13 @@ def test_what_is_selected_is_exported_where_it_stands(session):
 def test_wrong_exports_are_refused_in_one_line(session):
     found = session["export"]
     assert found["nothing"].startswith("nothing is selected")
+    assert found["same"].startswith("Half.step: two of what is selected would be this file")
     assert found["other"].startswith("Box: not a part, joint or frame of a kit")
     assert "must fit the bed of 60 x 50 mm" in found["bed"]
     assert "cannot be written to" in found["folder"]
     assert not any("\n" in str(words) for words in found.values())
+
+
+def test_users_can_have_freecad_test_the_workbench(tmp_path):
+    said = freecadcmd.call(linked(tmp_path), "-t", "freecad.scadgen.self_test")
+    assert re.search(r"^Ran 6 tests in .*\n\nOK$", said, re.MULTILINE), said

@@ -1,18 +1,20 @@
-"""The workbench pressed through in FreeCAD's own window."""
+"""The workbench in FreeCAD: its objects without a window, and pressed through in its own."""
 
 import os
 import shlex
+import shutil
 import sys
 from contextlib import contextmanager
 from pathlib import Path
 
 import freecadcmd
 from kits import kit
+from shared import once
 
 from scadgen.emit.macro import workbench
 from scadgen.kit.store import dumps
 
-__all__ = ["PICTURES", "linked", "press_everything"]
+__all__ = ["PICTURES", "linked", "objects", "press_everything"]
 
 ROOT = Path(__file__).parent.parent
 
@@ -27,18 +29,39 @@ def linked(home):
     return home
 
 
+def objects():
+    """What three starts of FreeCAD found: with the workbench, without it, with it again."""
+    return once("objects", _three_starts)
+
+
+def _three_starts(place):
+    ours, bare, folder = linked(place / "ours"), place / "bare", place / "folder"
+    bare.mkdir()
+    folder.mkdir()
+    (place / "kit.json").write_text(dumps(kit("hexagonal")), encoding="utf-8")
+    places = {"kit": str(place / "kit.json"), "folder": str(folder)}
+
+    def run(home, *steps):
+        return freecadcmd.run("objects.py", home, steps=steps, **places)
+
+    found, said = run(ours, "make", "edit", "refuse", "old")
+    without, _ = run(bare, "bare")
+    again, _ = run(ours, "restore", "export")
+    return {**found, **without, **again, "said": said, "folder": folder}
+
+
 def press_everything(place):
     """The steps that held, what FreeCAD said, and the folder with the pictures."""
-    ours, bare, folder = linked(place / "ours"), place / "bare", place / "folder"
-    for path in (bare, folder, place / "tmp"):
+    folder = place / "folder"
+    for path in (folder, place / "tmp"):
         path.mkdir()
-    given = {"kit": str(place / "kit.json"), "folder": str(folder)}
     (place / "kit.json").write_text(dumps(kit("hexagonal")), encoding="utf-8")
-    for home, step in ((ours, "make"), (bare, "bare")):
-        freecadcmd.run("objects.py", home, steps=[step], **given)
-    given |= {"engine": str(_engine(place)), "lost": str(folder / "bare.FCStd")}
+    lost = shutil.copy(objects()["folder"] / "bare.FCStd", place)
+    given = {"kit": place / "kit.json", "folder": folder, "engine": _engine(place), "lost": lost}
+    given = {name: str(path) for name, path in given.items()}
     with _temporary(place / "tmp"):
-        done, said = freecadcmd.run("gui.py", ours, window=True, timeout=600, **given)
+        home = linked(place / "home")
+        done, said = freecadcmd.run("gui.py", home, window=True, timeout=600, **given)
     return done, said, folder
 
 

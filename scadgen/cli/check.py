@@ -12,6 +12,9 @@ from scadgen.cli.console import progress, table, timeout_option
 
 __all__ = ["check"]
 
+#: About as many results as a group of checks has.
+_RESULTS = 10
+
 
 @click.command(short_help="Check everything about a kit.")
 @click.argument("folder", metavar="KIT", type=click.Path(path_type=Path))
@@ -31,11 +34,13 @@ def check(folder: Path, timeout: float, as_json: bool) -> int:  # noqa: FBT001
     kit = load(folder)
     results = []
     with progress(f"checking {folder}") as bar:
-        for what, found in bar.track(checks(kit, folder, timeout, bar.say).items()):
-            bar.say(what)
+        groups = checks(kit, folder, timeout, bar.say)
+        for number, (what, found) in enumerate(groups.items()):
+            bar.reach(number / len(groups), what)
+            step = bar.steps(number / len(groups), (number + 1) / len(groups), _RESULTS)
             for result in found:
                 results.append(result)
-                bar.say(result.check)
+                step(result.check)
     if as_json:
         click.echo(json.dumps([asdict(result) for result in results], indent=1))
     else:

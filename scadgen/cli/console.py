@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+import os
 import sys
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any
 
 import click
 
-if TYPE_CHECKING:
-    from rich.progress import Progress
-
 __all__ = ["Bar", "progress", "status", "table", "timeout_option"]
-
-T = TypeVar("T")
 
 
 def _seconds(_: click.Context, __: click.Parameter, value: float) -> float:
@@ -58,50 +55,73 @@ def status(text: str) -> Iterator[Callable[[str], None]]:
 
 
 class Bar:
-    """A progress bar on stderr, on a terminal only.
+    """How far something is, and what runs now.
 
     Parameters
     ----------
-    text
-        What runs.
-    shown
-        What shows it; None where nobody looks.
+    show
+        Told the share of all that is done, None where it is not known, and what runs.
     """
 
-    def __init__(self, text: str, shown: Progress | None) -> None:
-        self._text, self._shown = text, shown
-        self._task = shown.add_task(text, total=None) if shown else None
+    def __init__(self, show: Callable[[float | None, str], None]) -> None:
+        self._show = show
+        self._share: float | None = None
+        self._words = ""
 
     def say(self, words: str) -> None:
         """Say what runs now."""
-        if self._shown and self._task is not None:
-            self._shown.update(self._task, description=f"{self._text}: {words}")
+        self._words = words
+        self._show(self._share, words)
 
-    def reach(self, share: float) -> None:
-        """Show what share of all is done."""
-        if self._shown and self._task is not None:
-            self._shown.update(self._task, total=1.0, completed=min(share, 1.0))
+    def reach(self, share: float, words: str | None = None) -> None:
+        """Show what share of all is done, and what runs now unless that is the same."""
+        self._share = min(share, 1.0)
+        self.say(self._words if words is None else words)
 
-    def track(self, things: Collection[T]) -> Iterator[T]:
-        """Give one thing after the other; the bar shows how many are done."""
-        for number, thing in enumerate(things):
-            self.reach(number / len(things))
-            yield thing
-        self.reach(1.0)
+    def steps(self, start: float, stop: float, about: int) -> Callable[[str], None]:
+        """What says one step after the other, and takes the bar from one share to another.
+
+        Parameters
+        ----------
+        start, stop
+            Shares of all.
+        about
+            About as many steps as there will be; those beyond move the bar no further.
+        """
+        number = itertools.count(1)
+
+        def step(words: str) -> None:
+            self.reach(start + (stop - start) * min(next(number) / about, 1.0), words)
+
+        return step
 
 
 @contextmanager
 def progress(text: str) -> Iterator[Bar]:
-    """Show a progress bar while something runs."""
+    """Show on stderr how far something is that runs.
+
+    On a terminal it is a bar; for programs it is lines, if ``SCADGEN_PROGRESS`` is ``lines``:
+    a percentage, a space and what runs now, as in ``12% proving the joint``.
+    """
+    if os.environ.get("SCADGEN_PROGRESS") == "lines":
+        yield Bar(lambda share, words: click.echo(f"{share or 0:.0%} {words or text}", err=True))
+        return
     if not sys.stderr.isatty():
-        yield Bar(text, None)
+        yield Bar(lambda *_: None)
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as shown:
-        yield Bar(text, shown)
+        task = shown.add_task(text, total=None)
+
+        def show(share: float | None, words: str) -> None:
+            total = None if share is None else 1.0
+            description = f"{text}: {words}" if words else text
+            shown.update(task, description=description, total=total, completed=share or 0.0)
+
+        yield Bar(show)
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> None:

@@ -9,10 +9,16 @@ from typing import Any
 
 import click
 
-from scadgen.cli.console import status
+from scadgen.cli.console import progress
 from scadgen.errors import InputError
 
 __all__ = ["kit"]
+
+#: Shares of the time after which a joint is computed, and proved.
+_COMPUTED, _PROVED = 0.2, 0.9
+
+#: About as many proofs as a joint has, and files as a kit.
+_PROOFS, _FILES = 12, 9
 
 #: The live parameters: option, what it sets, the words about its default.
 _LENGTHS = (
@@ -110,11 +116,15 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
     folder = output or Path(frame)
     request = Request(frame, key, rows, columns, detail, chosen, values, _command())
     check_folder(folder)
-    with status("computing the joint") as say:
+    with progress(f"making {folder}") as bar:
+        bar.reach(0.0, "computing the joint")
         made = build(request)
+        done = _COMPUTED
         if not unchecked:
-            made = proved(made, lambda what: say(f"proving the joint: {what}"))
-        write_kit(made, folder, progress=lambda file: say(f"writing {file}"))
+            step, done = bar.steps(_COMPUTED, _PROVED, _PROOFS), _PROVED
+            made = proved(made, lambda what: step(f"proving the joint: {what}"))
+        write = bar.steps(done, 1.0, _FILES)
+        write_kit(made, folder, progress=lambda file: write(f"writing {file}"))
     if as_json:
         click.echo(json.dumps({"folder": str(folder), **summary(made)}, indent=1))
         return

@@ -117,7 +117,7 @@ def is_closed():
 def process():
     """The program that a task panel runs."""
     found = panel("ScadgenNewKit") or panel("ScadgenCheck")
-    return found.findChild(QtCore.QProcess)
+    return found and found.findChild(QtCore.QProcess)
 
 
 def is_idle():
@@ -135,6 +135,7 @@ def the_workbench_is_there():
     assert all(not button(name).icon().isNull() for name in BUTTONS)
     menus = [m for m in window.menuBar().findChildren(QtGui.QMenu) if m.title() == "Scadgen"]
     assert [a.objectName() for a in menus[0].actions() if not a.isSeparator()] == shown
+    assert "freecad.scadgen.self_test" in App.__unit_test__
     first = {"NewKit", "OpenKit", "Preferences"}
     yield lambda: {name for name in BUTTONS if button(name).isEnabled()} == first
 
@@ -152,9 +153,9 @@ def program(name, text):
     return str(path)
 
 
-def an_engine_that_cannot_work_is_said_so():
-    yield from new_kit_panel()
-    for path, words in (
+def bad_engines():
+    """Engines that cannot work, and what is said of each."""
+    return (
         (
             str(PLACES["folder"] / "nowhere"),
             "no such program; say where it is under Edit > Preferences",
@@ -163,7 +164,13 @@ def an_engine_that_cannot_work_is_said_so():
         (program("newer", "echo scadgen, version 9.1.0"), "is scadgen 9.1.0, this workbench needs"),
         (program("broken", "echo what is broken >&2; exit 3"), "what is broken"),
         (program("mute", "exit 3"), "left with status 3 and said nothing"),
-    ):
+        (program("idle", "echo scadgen, version 0.1.0"), "no kit can be read there"),
+    )
+
+
+def an_engine_that_cannot_work_is_said_so():
+    yield from new_kit_panel()
+    for path, words in bad_engines():
         settings().SetString("Engine", path)
         ok()
         yield is_idle
@@ -198,6 +205,30 @@ def number():
     return found.processId() if found and "kit" in found.arguments() else 0
 
 
+def is_gone(run):
+    """Whether a program has ended, and has left nothing where things lie for a while."""
+    return not Path(f"/proc/{run}").exists() and not left_over()
+
+
+def left_over():
+    return [*Path(tempfile.gettempdir()).glob("scadgen-*")]
+
+
+def percent():
+    """What the progress bar of the open panel says, if it is seen."""
+    return next((bar.value() for bar in visible(QtGui.QProgressBar)), 0)
+
+
+def until(there, shown):
+    """Wait, and keep the percentages that are shown meanwhile."""
+
+    def look():
+        shown.extend(filter(None, [percent()]))
+        return there()
+
+    return look
+
+
 def an_engine_that_is_killed_leaves_nothing():
     yield from new_kit_panel()
     ok()
@@ -215,18 +246,32 @@ def cancel_leaves_nothing():
     doc = App.newDocument("Empty")
     ok()
     yield number
+    yield lambda: panel_text() == "computing the joint"
     run = number()
     assert not box_button(QtGui.QDialogButtonBox.Ok).isEnabled()
     assert field(QtGui.QProgressBar, "progress").isVisible()
     cancel()
     yield is_idle
     assert "Stopped; nothing was made" in panel_text(), panel_text()
-    assert not Path(f"/proc/{run}").exists()
+    assert is_gone(run)
     assert (names(doc), doc.UndoCount) == ([], 0)
-    assert not [*Path(tempfile.gettempdir()).glob("scadgen-*")]
     cancel()
     yield is_closed
     App.closeDocument(doc.Name)
+
+
+def an_engine_that_does_not_listen_is_stopped():
+    settings().SetString("Engine", program("deaf", "trap '' TERM; exec sleep 60"))
+    yield from new_kit_panel()
+    ok()
+    yield lambda: process() and process().processId()
+    run = process().processId()
+    cancel()
+    yield is_idle
+    assert is_gone(run)
+    cancel()
+    yield is_closed
+    settings().SetString("Engine", str(PLACES["engine"]))
 
 
 def a_new_kit_is_made_and_undone():
@@ -241,9 +286,14 @@ def a_new_kit_is_made_and_undone():
     field(QtGui.QSpinBox, "rows").setValue(2)
     field(QtGui.QWidget, "clearance").setProperty("rawValue", 0.25)
     picture("new_kit")
-    field(QtGui.QCheckBox, "proved").setChecked(False)  # the check proves it below
+    assert field(QtGui.QCheckBox, "proved").isChecked()
+    shown = []
     ok()
+    yield until(lambda: is_closed() or not process(), shown)
     yield is_closed
+    assert shown == sorted(shown), shown
+    assert len({*shown}) > 8, shown
+    assert not left_over()
     doc = App.ActiveDocument
     assert doc.Kit.Clearance.Value == 0.25
     assert doc.Joint.Pieces == 5
@@ -293,14 +343,18 @@ def a_part_has_a_clearance_of_its_own():
 
     found, words = menu()
     assert words == ["Give it a clearance of its own"], words
+    steps = doc.UndoCount
     found.actions()[0].trigger()
+    assert doc.UndoCount == steps + 1
     doc.Half.Clearance = 0.1
     doc.recompute()
     assert doc.Half.Volume.Value > volume
     assert doc.Connector.Volume.Value == other
     found, words = menu()
     assert words == ["Let it follow its kit again"], words
+    steps = doc.UndoCount
     found.actions()[0].trigger()
+    assert doc.UndoCount == steps + 1
     assert doc.Half.Volume.Value == volume
     yield lambda: True
 
@@ -369,6 +423,27 @@ def files_are_written():
     yield is_closed
 
 
+def a_check_that_the_engine_cannot_make_is_said_so():
+    for path, words in bad_engines():
+        settings().SetString("Engine", path)
+        yield from press("Check")
+        yield lambda: panel("ScadgenCheck")
+        yield lambda: not process()
+        assert words in panel_text(), panel_text()
+        box_button(QtGui.QDialogButtonBox.Close).click()
+        yield is_closed
+    settings().SetString("Engine", str(PLACES["engine"]))
+
+
+def closing_a_check_stops_it():
+    yield from press("Check")
+    yield number
+    run = number()
+    box_button(QtGui.QDialogButtonBox.Close).click()
+    yield is_closed
+    assert is_gone(run)
+
+
 def a_kit_is_checked():
     doc = App.ActiveDocument
     text = json.loads(doc.Kit.Data)
@@ -379,17 +454,19 @@ def a_kit_is_checked():
     Gui.Selection.clearSelection()
     yield from press("Check")
     yield lambda: panel("ScadgenCheck")
-    # Without a graphics card, drawing the moving bar beside the 3D view takes a processor.
-    Gui.getMainWindow().centralWidget().hide()
-    yield lambda: panel_text() and not process()
-    Gui.getMainWindow().centralWidget().show()
+    shown = []
+    yield until(lambda: "checks are good" in panel_text(), shown)
+    assert shown == sorted(shown), shown
+    assert len({*shown}) > 20, shown
     table = field(QtGui.QTableWidget, "table")
     rows = [[table.item(r, c).text() for c in range(4)] for r in range(table.rowCount())]
     assert len(rows) > 30, panel_text()
     assert rows[0] == ["FAILED", "half is what the engine makes", "another", "the same"], rows[:2]
     others = [row[0] for row in rows[1:] if row[1].endswith("is what the engine makes")]
     assert others == ["ok"] * 6, rows
-    assert [o.Name for o in Gui.Selection.getSelection()] == ["Half"]
+    chosen = {o.Name for o in Gui.Selection.getSelection()}
+    assert chosen == {"Half", *(o.Name for o in doc.Half.InList if o.TypeId == "App::Link")}
+    assert "Joint_half_a" in chosen
     picture("check", width=640)
     box_button(QtGui.QDialogButtonBox.Close).click()
     yield is_closed
@@ -427,6 +504,9 @@ def kits_are_opened_or_refused():
         else:
             yield lambda: "Joint" in names(doc)
     assert doc.Joint.Pieces == 5
+    assert doc.UndoCount == 1
+    Gui.runCommand("Std_Undo")
+    assert names(doc) == []
 
 
 def lost_behaviour_is_restored():
@@ -436,8 +516,10 @@ def lost_behaviour_is_restored():
     doc.Kit.Clearance = 0.1
     doc.recompute()
     assert doc.Half.Shape.Volume == volume
+    steps = doc.UndoCount
     yield from press("Restore")
     yield lambda: doc.Kit.Proxy is not None
+    assert doc.UndoCount == steps + 1
     assert doc.Half.ViewObject.Proxy is not None
     assert doc.Half.Shape.Volume > volume
 
@@ -473,11 +555,14 @@ STEPS = (
     what_the_engine_refuses_is_said,
     an_engine_that_is_killed_leaves_nothing,
     cancel_leaves_nothing,
+    an_engine_that_does_not_listen_is_stopped,
     a_new_kit_is_made_and_undone,
     each_part_is_added_and_undone,
     a_part_has_a_clearance_of_its_own,
     assemblies_are_pulled_apart,
     files_are_written,
+    a_check_that_the_engine_cannot_make_is_said_so,
+    closing_a_check_stops_it,
     a_kit_is_checked,
     kits_are_opened_or_refused,
     lost_behaviour_is_restored,

@@ -43,6 +43,10 @@ def facts(obj):
     }
 
 
+def validity(document):
+    return [obj.Shape.isValid() for obj in parts_of(document).values()]
+
+
 def through_step(obj, folder):
     """Validity, type and volume of a part after a trip through STEP."""
     path = f"{folder}/{STEP}"
@@ -53,17 +57,16 @@ def through_step(obj, folder):
 
 
 def shapes(macro, settings, judged, folder):
+    """Facts of all parts at each setting; validity as it opens, and at the last `judged` ones."""
     document = opened(macro)
     found = {"modules": sorted({m.split(".")[0] for m in sys.modules} & {"scadgen", "numpy"})}
     found["step"] = {n: through_step(obj, folder) for n, obj in parts_of(document).items()}
-    found["settings"] = []
-    for values in settings:
+    found["valid"], found["settings"] = [validity(document)], []
+    for number, values in enumerate(settings, judged - len(settings)):
         set_all(document, values)
         found["settings"].append({n: facts(obj) for n, obj in parts_of(document).items()})
-    found["valid"] = []
-    for values in judged:
-        set_all(document, values)
-        found["valid"].append([obj.Shape.isValid() for obj in parts_of(document).values()])
+        if number >= 0:
+            found["valid"].append(validity(document))
     return found
 
 

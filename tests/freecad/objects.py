@@ -7,6 +7,9 @@ import FreeCAD as App
 #: Where things are: the kit, and the folder for what is saved.
 PLACES = {}
 
+#: Whether shapes are sound, as far as they were judged.
+JUDGED = {}
+
 KINDS = ("basic", "one_sided", "two_sided", "connector", "half", "peg", "tube")
 
 
@@ -21,8 +24,17 @@ def text():
 def volumes(doc):
     """The volume of each part, by its name; each must be a sound solid."""
     parts = [o for o in doc.Objects if o.TypeId == "Part::FeaturePython"]
-    assert all(p.Shape.isValid() and len(p.Shape.Solids) == 1 for p in parts)
+    assert all(is_sound(doc, part) for part in parts)
     return {p.Name: p.Shape.Volume for p in parts}
+
+
+def is_sound(doc, part):
+    """Whether a part is one sound solid; slow, so once for each shape in a document."""
+    shape = part.Shape
+    key = (doc.FileName, part.Name, shape.Volume, shape.Area)
+    if key not in JUDGED:
+        JUDGED[key] = shape.isValid() and len(shape.Solids) == 1
+    return JUDGED[key]
 
 
 def states(doc):
@@ -192,6 +204,7 @@ def export():
     doc.Joint.Placement.Base = App.Vector(0, 0, 20)
     doc.recompute()
     found = {}
+    doc.Peg.Label = "Half "
     for kind in files.FORMATS:
         files.write(files.selection_files([doc.Half, doc.Joint], kind), folder)
         whole = files.whole_files(doc.Kit, kind, (220.0, 220.0))
@@ -200,6 +213,7 @@ def export():
     for name, act in (
         ("nothing", lambda: files.selection_files([], "stl")),
         ("other", lambda: files.selection_files([doc.Box], "stl")),
+        ("same", lambda: files.selection_files([doc.Half, doc.Peg], "step")),
         ("bed", lambda: files.whole_files(doc.Kit, "3mf", (60.0, 50.0))),
         ("folder", lambda: files.write({"a": b""}, folder / "none")),
     ):
@@ -222,6 +236,7 @@ def main(steps, **given):
     found = {}
     for step in STEPS:
         if step.__name__ in steps:
+            JUDGED.clear()
             found[step.__name__] = step()
             for name in [*App.listDocuments()]:
                 App.closeDocument(name)

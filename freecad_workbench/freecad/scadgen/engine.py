@@ -23,6 +23,9 @@ _GRACE = 3000
 #: What ``scadgen freecad install --copy`` leaves in a copy of the workbench.
 _COPIED = ".scadgen-copy.json"
 
+#: A line in which the program says how far it is, and what it does.
+_PROGRESS = re.compile(r"(\d{1,3})% (.*)")
+
 #: Exit status for an answer, be it yes or no; any other comes with a message.
 _ANSWERS = (0, 1)
 
@@ -70,7 +73,9 @@ def find() -> str:
         found = shutil.which(str(program))
         if found:
             return found
-    text = translate("Scadgen", "scadgen: not found; install it (pip install scadgen-truss), or {}")
+    text = translate(
+        "Scadgen", "scadgen: not found; install it as this workbench's README says, or {}"
+    )
     raise EngineError(text.format(_where()))
 
 
@@ -93,10 +98,10 @@ def _where() -> str:
 class Engine(QtCore.QObject):
     """One run of the program at a time.
 
-    `said` is emitted for each line on stderr, `ended` once with an `Outcome`.
+    `went` is emitted with a percentage and what runs now, `ended` once with an `Outcome`.
     """
 
-    said = QtCore.Signal(str)
+    went = QtCore.Signal(int, str)
     ended = QtCore.Signal(object)
 
     def __init__(self, parent: QtCore.QObject | None = None) -> None:
@@ -137,6 +142,7 @@ class Engine(QtCore.QObject):
         environment = QtCore.QProcessEnvironment.systemEnvironment()
         for name in ("PYTHONHOME", "PYTHONPATH"):  # FreeCAD's own Python, in an AppImage
             environment.remove(name)
+        environment.insert("SCADGEN_PROGRESS", "lines")
         process.setProcessEnvironment(environment)
         self._process, self._rest = process, ""
         self._lines.clear()
@@ -152,12 +158,14 @@ class Engine(QtCore.QObject):
         )
         *lines, self._rest = re.split(r"[\r\n]+", text)
         for line in lines:
-            self._say(line)
+            self._hear(line.strip())
 
-    def _say(self, line: str) -> None:
-        if line.strip():
-            self._lines.append(line.strip())
-            self.said.emit(line.strip())
+    def _hear(self, line: str) -> None:
+        found = _PROGRESS.fullmatch(line)
+        if found and not self._stopping:
+            self.went.emit(int(found[1]), found[2])
+        elif line and not found:
+            self._lines.append(line)
 
     def _failed(self, error: QtCore.QProcess.ProcessError) -> None:
         if error == QtCore.QProcess.FailedToStart:
@@ -167,7 +175,7 @@ class Engine(QtCore.QObject):
 
     def _finished(self, status: int, how: QtCore.QProcess.ExitStatus) -> None:
         self._read()
-        self._say(self._rest)
+        self._hear(self._rest.strip())
         output = bytes(self._process.readAllStandardOutput().data()).decode("utf-8", "replace")
         self._process.deleteLater()
         if self._stopping:

@@ -63,12 +63,15 @@ def selection_files(objects: Iterable[Any], kind: str) -> dict[str, bytes]:
         pieces = [piece for found in chosen.values() for piece in found]
         name = _file_name(next(iter(chosen)) if len(chosen) == 1 else "selection")
         return {f"{name}.3mf": threemf(_bodies(pieces))}
-    if kind == "stl":
-        return {f"{_file_name(n)}.stl": stl(_bodies(found)) for n, found in chosen.items()}
-    return {
-        f"{_file_name(name)}.step": _step(name, [part.Shape.Solids[0] for part, _ in found], found)
-        for name, found in chosen.items()
-    }
+    files: dict[str, bytes] = {}
+    for label, found in chosen.items():
+        name = f"{_file_name(label)}.{kind}"
+        if name in files:
+            msg = f"{name}: two of what is selected would be this file; give one another label"
+            raise KitError(msg)
+        shapes = [part.Shape.Solids[0] for part, _ in found]
+        files[name] = stl(_bodies(found)) if kind == "stl" else _step(label, shapes, found)
+    return files
 
 
 def whole_files(kit: Any, kind: str, bed: tuple[float, float]) -> dict[str, bytes]:

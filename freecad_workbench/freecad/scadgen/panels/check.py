@@ -9,10 +9,10 @@ from typing import Any, NamedTuple
 
 import FreeCAD as App
 import FreeCADGui as Gui
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 from freecad.scadgen import document
-from freecad.scadgen.affine import KitError
+from freecad.scadgen.affine import KitError, read_kit
 from freecad.scadgen.engine import Engine, EngineError, Outcome
 from freecad.scadgen.kit_object import data_of
 from freecad.scadgen.names import KINDS
@@ -20,6 +20,9 @@ from freecad.scadgen.panels.panel import Panel
 from freecad.scadgen.properties import refuse, values_of
 
 __all__ = ["CheckPanel", "Row"]
+
+#: Share of the time after which the kit is made again.
+_MADE = 0.1
 
 translate = App.Qt.translate
 
@@ -52,6 +55,7 @@ class CheckPanel(Panel):
     def __init__(self, kit: Any) -> None:
         super().__init__()
         self.kit = kit
+        self._document = kit.Document.Name
         self.rows: list[Row] = []
         self.form.table.setColumnCount(4)
         self.form.table.setHorizontalHeaderLabels(
@@ -62,12 +66,13 @@ class CheckPanel(Panel):
                 translate("Scadgen", "Must be"),
             ]
         )
+        self.form.table.verticalHeader().hide()
         self.form.table.itemSelectionChanged.connect(self.select)
         self.engine = Engine(self.form)
-        self.engine.said.connect(self.tell)
+        self.engine.went.connect(self._went)
         self.engine.ended.connect(self._ended)
         self._folder = tempfile.TemporaryDirectory(prefix="scadgen-")
-        self._made = False
+        self._made = self._closing = False
 
     def getStandardButtons(self) -> int:
         """Close alone."""
@@ -84,9 +89,12 @@ class CheckPanel(Panel):
             self._ended(Outcome(False, "", str(error)))
 
     def reject(self) -> bool:
-        """Stop and close."""
-        self.engine.ended.disconnect(self._ended)
-        self.engine.stop()
+        """Close, once the engine has stopped and cleared up after itself."""
+        if self.engine.running:
+            self._closing = True
+            self.tell(translate("Scadgen", "Stopping"))
+            self.engine.stop()
+            return False
         self._folder.cleanup()
         self.leave()
         return True
@@ -95,8 +103,10 @@ class CheckPanel(Panel):
         """Select the objects that the chosen line is about."""
         Gui.Selection.clearSelection()
         chosen = {item.row() for item in self.form.table.selectedItems()}
+        doc = App.listDocuments().get(self._document)
         for name in {name for n in chosen for name in self.rows[n].objects}:
-            Gui.Selection.addSelection(self.kit.Document.Name, name)
+            if doc and doc.getObject(name):
+                Gui.Selection.addSelection(self._document, name)
 
     def _parts(self) -> list[Any]:
         return [p for p in document.ours(self.kit.Document, "part") if p.Kit == self.kit]
@@ -107,18 +117,38 @@ class CheckPanel(Panel):
         except EngineError as error:
             self._ended(Outcome(False, "", str(error)))
 
+    def _went(self, percent: int, words: str) -> None:
+        """Show how far both runs are: the first makes the kit."""
+        share = percent / 100
+        done = _MADE + (1 - _MADE) * share if self._made else _MADE * share
+        self.show_progress(round(100 * done), words)
+
     def _ended(self, outcome: Outcome) -> None:
-        if outcome.good and self._made:
-            self._checked(outcome.output)
-        elif outcome.good:
-            self._remade()
-        else:
+        if self._closing:
+            # Not at once: that would delete the engine while it speaks.
+            QtCore.QTimer.singleShot(0, self.reject)
+            return
+        try:
+            self._go_on(outcome)
+        except KitError as error:
             self._show()
-            self.tell(outcome.message, bad=True)
+            self.tell(str(error), bad=True)
+        except ReferenceError:
+            self.form.progress.hide()
+            self.tell(translate("Scadgen", "The kit was deleted meanwhile"), bad=True)
+
+    def _go_on(self, outcome: Outcome) -> None:
+        if not outcome.good:
+            raise KitError(outcome.message)
+        if self._made:
+            self._checked(outcome.output)
+        else:
+            self._remade()
 
     def _remade(self) -> None:
         """Compare what the engine made with what is in the document, and check it."""
         folder = Path(self._folder.name) / "kit"
+        read_kit(folder)  # says what is wrong, if anything is
         made = json.loads((folder / "kit.json").read_text(encoding="utf-8"))["parts"]
         here = json.loads(self.kit.Data)["parts"]
         for part in KINDS:
@@ -132,10 +162,9 @@ class CheckPanel(Panel):
 
     def _checked(self, output: str) -> None:
         """Add what the engine found."""
-        for r in json.loads(output):
-            about = next((p for p in KINDS if p in r["check"].replace(":", " ").split()), "")
-            row = Row(r["good"], r["check"], r["figure"], r["bound"], self._about(about))
-            self.rows.append(row)
+        for good, check, figure, bound in _results(output):
+            about = next((p for p in KINDS if p in check.replace(":", " ").split()), "")
+            self.rows.append(Row(good, check, figure, bound, self._about(about)))
         self._show()
         bad = sum(not row.good for row in self.rows)
         text = translate("Scadgen", "{} of {} checks are good")
@@ -143,7 +172,10 @@ class CheckPanel(Panel):
         self.tell(message, bad=bad > 0)
 
     def _about(self, kind: str) -> tuple[str, ...]:
-        return tuple(part.Name for part in self._parts() if part.Kind == kind)
+        """The parts of a kind, and the links that show them in joints and frames."""
+        parts = [part for part in self._parts() if part.Kind == kind]
+        links = [obj for part in parts for obj in part.InList if obj.isDerivedFrom("App::Link")]
+        return tuple(obj.Name for obj in (*parts, *links))
 
     def _show(self) -> None:
         """Fill the table, what is bad first, and choose its first line if it is bad."""
@@ -155,9 +187,25 @@ class CheckPanel(Panel):
             verdict = translate("Scadgen", "ok") if row.good else translate("Scadgen", "FAILED")
             for column, text in enumerate((verdict, row.check, row.figure, row.bound)):
                 table.setItem(n, column, QtGui.QTableWidgetItem(text))
+                table.item(n, column).setToolTip(text)
         table.resizeColumnsToContents()
         if self.rows and not self.rows[0].good:
             table.selectRow(0)
+
+
+def _results(output: str) -> list[tuple[bool, str, str, str]]:
+    """What the engine found: whether it is good, what was checked, what it is and must be.
+
+    Raises
+    ------
+    KitError
+        It gave no such results.
+    """
+    try:
+        return [(r["good"], r["check"], r["figure"], r["bound"]) for r in json.loads(output)]
+    except (ValueError, KeyError, TypeError) as error:
+        text = translate("Scadgen", "scadgen check gave no results: try it at a terminal")
+        raise KitError(text) from error
 
 
 def _sound(part: Any) -> Row | None:

@@ -67,8 +67,8 @@ class ExportPanel(Panel):
         except KitError as error:
             self.tell(str(error), bad=True)
             return False
-        text = translate("Scadgen", "{} files written to {}: {}")
-        App.Console.PrintMessage(text.format(len(files), folder, ", ".join(files)) + "\n")
+        text = translate("Scadgen", "Written to {}: {}")
+        App.Console.PrintMessage(text.format(folder, ", ".join(files)) + "\n")
         self.leave()
         return True
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -28,7 +27,6 @@ translate = App.Qt.translate
 _KEYS = ("fixed", "loose")
 _DETAILS = ("draft", "standard", "fine")
 _PLACES = ("joint", "frame", "nothing")
-_PERCENT = re.compile(r"(\d{1,3}) ?%")
 
 
 class NewKitPanel(Panel):
@@ -53,7 +51,7 @@ class NewKitPanel(Panel):
             box.valueChanged.connect(self.update)
         form.weave_file.fileNameChanged.connect(self.update)
         self.engine = Engine(form)
-        self.engine.said.connect(self._said)
+        self.engine.went.connect(self.show_progress)
         self.engine.ended.connect(self._ended)
         self._folder: Any = None
         self.update()
@@ -140,15 +138,8 @@ class NewKitPanel(Panel):
     def _working(self, working: bool) -> None:  # noqa: FBT001  as Qt has it
         self.form.inputs.setEnabled(not working)
         self.form.progress.setVisible(working)
-        self.form.progress.setRange(0, 0)
+        self.form.progress.setValue(0)
         self.enable_ok(not working)
-
-    def _said(self, line: str) -> None:
-        self.tell(line)
-        found = _PERCENT.search(line)
-        if found:
-            self.form.progress.setRange(0, 100)
-            self.form.progress.setValue(int(found[1]))
 
     def _ended(self, outcome: Outcome) -> None:
         self._working(False)

@@ -43,6 +43,11 @@ class Panel:
         if bad:
             App.Console.PrintError(message + "\n")
 
+    def show_progress(self, percent: int, words: str) -> None:
+        """Show how far the engine is, and what it does."""
+        self.form.progress.setValue(percent)
+        self.tell(words)
+
     def present(self) -> None:
         """Show the panel.  FreeCAD has one at a time, and says so if there is another."""
         Gui.Control.showDialog(self)

@@ -275,12 +275,20 @@
    <translation>Der Rechenkern arbeitet</translation>
   </message>
   <message>
+   <source>The kit was deleted meanwhile</source>
+   <translation>Der Bausatz wurde inzwischen gelöscht</translation>
+  </message>
+  <message>
    <source>Tube</source>
    <translation>Rohr</translation>
   </message>
   <message>
    <source>Two-sided element</source>
    <translation>Zweiseitiges Element</translation>
+  </message>
+  <message>
+   <source>Written to {}: {}</source>
+   <translation>Nach {} geschrieben: {}</translation>
   </message>
   <message>
    <source>another</source>
@@ -299,12 +307,16 @@
    <translation>geben Sie unter Bearbeiten &gt; Einstellungen &gt; Scadgen an, wo es ist</translation>
   </message>
   <message>
+   <source>scadgen check gave no results: try it at a terminal</source>
+   <translation>scadgen check lieferte keine Ergebnisse: am Terminal ausprobieren</translation>
+  </message>
+  <message>
    <source>scadgen was killed or crashed midway; nothing was made: try again</source>
    <translation>scadgen wurde mittendrin beendet oder ist abgestürzt; nichts wurde erzeugt: versuchen Sie es noch einmal</translation>
   </message>
   <message>
-   <source>scadgen: not found; install it (pip install scadgen-truss), or {}</source>
-   <translation>scadgen: nicht gefunden; installieren Sie es (pip install scadgen-truss), oder {}</translation>
+   <source>scadgen: not found; install it as this workbench's README says, or {}</source>
+   <translation>scadgen: nicht gefunden; installieren Sie es wie im README dieses Arbeitsbereichs, oder {}</translation>
   </message>
   <message>
    <source>the same</source>
@@ -313,10 +325,6 @@
   <message>
    <source>{:.1f} sides, {:.1f} mm</source>
    <translation>{:.1f} Seiten, {:.1f} mm</translation>
-  </message>
-  <message>
-   <source>{} files written to {}: {}</source>
-   <translation>{} Dateien nach {} geschrieben: {}</translation>
   </message>
   <message>
    <source>{} is in its ranges</source>

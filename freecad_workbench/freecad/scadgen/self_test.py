@@ -1,0 +1,150 @@
+"""Whether the workbench works in this FreeCAD: ``freecadcmd -t freecad.scadgen.self_test``.
+
+FreeCAD's Test workbench lists it as well.  The kit here is a square frame of plain boxes, whose
+volumes anyone can work out.
+"""
+
+from __future__ import annotations
+
+import json
+import tempfile
+import unittest
+from pathlib import Path
+from typing import Any
+
+import FreeCAD as App
+
+from freecad.scadgen import document, part_object
+from freecad.scadgen.affine import KitError
+from freecad.scadgen.layout import LAYOUTS
+
+__all__ = ["BoxesTest"]
+
+_VALUES = {"side": 10.0, "edge_length": 60.0, "clearance": 0.2}
+
+#: Parts of the kit, and their lengths: sides and edge lengths.
+_LENGTHS = {
+    "basic": (-2, 1),
+    "one_sided": (-1, 1),
+    "connector": (1, 0),
+    "half": (2, 0),
+    "peg": (1, 0),
+}
+
+
+class BoxesTest(unittest.TestCase):
+    """A kit of boxes as objects of a document."""
+
+    def setUp(self) -> None:
+        """Begin with a document that has the kit."""
+        self.doc = App.newDocument("ScadgenSelfTest")
+        self.kit = document.add_kit(self.doc, _kit())
+
+    def tearDown(self) -> None:
+        """Leave no document."""
+        App.closeDocument(self.doc.Name)
+
+    def add(self, kind: str) -> Any:
+        """A part, made."""
+        part = document.add_part(self.kit, kind)
+        self.doc.recompute()
+        return part
+
+    def test_every_part_is_a_sound_solid_of_the_right_volume(self) -> None:
+        for kind in _LENGTHS:
+            part = self.add(kind)
+            self.assertTrue(part.Shape.isValid() and part.Shape.isClosed(), kind)
+            self.assertAlmostEqual(part.Shape.Volume, _volume(kind, 0.2), 6, kind)
+
+    def test_a_part_follows_its_kit_until_it_has_its_own(self) -> None:
+        half = self.add("half")
+        self.kit.Clearance = "0.4 mm"
+        self.doc.recompute()
+        self.assertAlmostEqual(half.Shape.Volume, _volume("half", 0.4), 6)
+        part_object.own(half, "clearance", 0.1)
+        self.doc.recompute()
+        self.assertAlmostEqual(half.Shape.Volume, _volume("half", 0.1), 6)
+
+    def test_a_value_out_of_its_range_keeps_the_shape(self) -> None:
+        half = self.add("half")
+        part_object.own(half, "clearance", 2.0)
+        self.doc.recompute()
+        self.assertIn("clearance = 2 mm: must be 0 to 1 mm", half.getStatusString())
+        self.assertAlmostEqual(half.Shape.Volume, _volume("half", 0.2), 6)
+
+    def test_a_frame_is_links(self) -> None:
+        frame = document.add_frame(self.kit)
+        self.doc.recompute()
+        pieces = len(LAYOUTS["square"](1, 2, "fixed"))
+        self.assertEqual(frame.Pieces, pieces)
+        self.assertEqual(sum(link.ElementCount for link in frame.Group), pieces)
+        self.assertEqual({link.TypeId for link in frame.Group}, {"App::Link"})
+
+    def test_a_saved_document_behaves_when_it_is_opened(self) -> None:
+        self.add("half")
+        with tempfile.TemporaryDirectory(prefix="scadgen-") as folder:
+            path = str(Path(folder) / "kit.FCStd")
+            self.doc.saveAs(path)
+            App.closeDocument(self.doc.Name)
+            self.doc = App.openDocument(path)
+        self.doc.Kit.Clearance = 0.4
+        self.doc.recompute()
+        self.assertAlmostEqual(self.doc.Half.Shape.Volume, _volume("half", 0.4), 6)
+
+    def test_what_is_no_kit_adds_nothing(self) -> None:
+        before = len(self.doc.Objects)
+        with self.assertRaises(KitError):
+            document.add_kit(self.doc, _kit()[:-1])
+        self.assertEqual(len(self.doc.Objects), before)
+
+
+def _volume(kind: str, clearance: float) -> float:
+    sides, edges = _LENGTHS[kind]
+    length = sides * _VALUES["side"] + edges * _VALUES["edge_length"] - clearance
+    return length * _VALUES["side"] ** 2
+
+
+def _box(sides: int, edges: int) -> dict[str, Any]:
+    """A box from 0 along x, a side wide and high, shortened by the clearance."""
+    corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+    quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    points = {
+        "side": [[x * sides, y, z] for x, y, z in corners],
+        "edge_length": [[x * edges, 0, 0] for x, _, _ in corners],
+        "clearance": [[-x, 0, 0] for x, _, _ in corners],
+    }
+    return {
+        "points": points,
+        "triangles": [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))],
+        "facets": [n // 2 for n in range(12)],
+    }
+
+
+def _kit() -> str:
+    """The text of the kit."""
+    highest = {"side": 20.0, "edge_length": 100.0, "clearance": 1.0}
+    ranges = [
+        {
+            "parameter": name,
+            "low": {"terms": {}, "constant": 0.0},
+            "high": {"terms": {}, "constant": high},
+            "reason": "larger is not tested",
+        }
+        for name, high in highest.items()
+    ]
+    kit = {
+        "format": "scadgen-kit",
+        "version": 1,
+        "frame": "square",
+        "key": "fixed",
+        "detail": "boxes",
+        "rows": 1,
+        "columns": 2,
+        "command": "",
+        "values": _VALUES,
+        "ranges": ranges,
+        "bill": {},
+        "joint": [{"part": "half", "at": [0, 0], "turn": 0, "flip": False, "role": "half_a"}],
+        "parts": {name: _box(*lengths) for name, lengths in _LENGTHS.items()},
+    }
+    return json.dumps(kit)
