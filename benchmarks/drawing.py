@@ -74,7 +74,7 @@ def _with_booleans(kit: Kit) -> dict[str, str]:
     made from its finished polyhedron, and so flattered.
     """
     v = kit.values
-    start = kit.figures["tube_start_sides"] * v["side"]
+    start = kit.joints[0].figures["tube_start_sides"] * v["side"]
     end, gap, width = v["edge_length"] - start, v["peg_clearance"], v["peg_width"]
     near, far = "connector();", f"translate([{v['edge_length']}, 0, 0]) rotate(180) connector();"
     tube = _box(start, end, v["side"])
@@ -87,7 +87,7 @@ def _with_booleans(kit: Kit) -> dict[str, str]:
     joint = [
         f"rotate({p.turn}) "
         + (f"rotate([{180 * p.flip}, 0, 0]) half();" if p.part == "half" else near)
-        for p in kit.joint
+        for p in kit.joints[0].pieces
         if p.part != "peg"
     ]
     half = f"difference() {{ connector(); {beside} {socket} }}"
@@ -104,8 +104,8 @@ def _with_booleans(kit: Kit) -> dict[str, str]:
 
 def _cells(kit: Kit) -> str:
     """The connector as the ring's part in a union of convex Voronoi cells, with no clearance."""
-    weave = Weave(**{k: v for k, v in kit.weave.items() if k != "name"})
-    count, side = kit.valence, kit.values["side"]
+    weave = Weave(**{k: v for k, v in kit.joints[0].weave.items() if k != "name"})
+    count, side = len(kit.joints[0].turns), kit.values["side"]
     edges = np.arange(count) * 2 * np.pi / count
     curves = site_curves(edges, weave, _CELLS)
     sites = [side * curve.points(np.linspace(-1, 1, _CELLS)) for curve in curves]

@@ -32,7 +32,11 @@ def run() -> None:
         progress(f"{frame}: proofs on known ways")
         start = _cpu()
         made = proved(kit)
-        line("proved on known ways", f"{_cpu() - start:.1f} s", f"{len(made.verdicts)} verdicts")
+        line(
+            "proved on known ways",
+            f"{_cpu() - start:.1f} s",
+            f"{len(made.joints[0].verdicts)} verdicts",
+        )
         _searched(made)
         progress(f"{frame}: check")
         _checked(made)
@@ -40,11 +44,12 @@ def run() -> None:
 
 def _searched(kit: Kit) -> None:
     """The same joint under a weave of another name, whose ways nobody knows."""
-    ring_ratio = float(kit.weave["ring_ratio"]) + 1e-4
-    unknown = replace(kit, weave={**kit.weave, "ring_ratio": ring_ratio}, ways=())
+    (joint,) = kit.joints
+    ring_ratio = float(joint.weave["ring_ratio"]) + 1e-4
+    unknown = replace(joint, weave={**joint.weave, "ring_ratio": ring_ratio}, ways=())
     progress(f"{kit.frame}: proofs with a search")
     start = _cpu()
-    good = all(proof.result.good for proof in proofs(unknown))
+    good = all(proof.result.good for proof in proofs(kit, unknown))
     line("ways searched for", f"{_cpu() - start:.1f} s", "found" if good else "not found")
 
 

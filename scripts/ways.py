@@ -34,14 +34,15 @@ def found(joint: tuple[int, str]) -> dict[str, list[dict[str, Any]]]:
     for key in KEYS:
         name = f"{valence}-{key}"
         kit = build_joint(valence, BUILT_IN[name], key, detail)
-        known += known_ways(kit)
+        (joint_kind,) = kit.joints
+        known += known_ways(kit, joint_kind)
         ways = []
-        for result, way in come_apart(kit, known, roomy=True):
+        for result, way in come_apart(kit, joint_kind, known, roomy=True):
             print(name, detail, result.check, result.figure, file=sys.stderr, flush=True)
             if way is None:
                 sys.exit(f"{name} {detail}: stuck")
             ways.append(way)
-        entries[key_of(kit)] = [way_entry(way) for way in ways]
+        entries[key_of(kit, joint_kind)] = [way_entry(way) for way in ways]
         known = ways
     return entries
 

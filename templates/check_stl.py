@@ -105,7 +105,7 @@ def check(mesh: Path, log: Path | None) -> str:
     check_edges(triangles)
     enclosed = volume(triangles)
     if not enclosed > 0:
-        fault = "inside out: the faces look inwards"
+        fault = "inside out: its faces look inwards" if enclosed < 0 else "flat: encloses nothing"
         raise FaultError(fault)
     if stated is not None and not abs(enclosed - stated) <= TOLERANCE * stated:
         fault = f"volume = {enclosed:.6g} mm3: must be {stated:.6g}"

@@ -8,6 +8,7 @@ from shared import once
 from scadgen.check.proof import proved
 from scadgen.element.pieces import Piece, add_surface
 from scadgen.emit.scad import scad
+from scadgen.frame.graph import make_frame
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import VALENCE, Request, build
@@ -39,6 +40,13 @@ def kit(frame, key="fixed", bore=0.0, detail="draft"):
     return once(f"kit-{frame}-{key}-{bore}-{detail}", lambda _: build(request))
 
 
+def tee():
+    """The kit of a frame without rows and columns to set, of three edges; not proved."""
+    ends = [(0, 0), (-150, 0), (150, 0), (0, 150)]
+    graph = make_frame("tee", ends, [(0, 1), (0, 2), (0, 3)])
+    return once("kit-tee", lambda _: build(Request("tee", "loose", 0, 0, "draft", graph=graph)))
+
+
 def proved_kit(frame):
     """A kit with all that is proved of it."""
     return once(f"proved-{frame}", lambda _: proved(kit(frame)))
@@ -58,7 +66,7 @@ def written(kind, detail="draft"):
 
 def joint(frame, detail="draft"):
     """The joint of a frame's solid kit with a fixed key, on the kit's lattice."""
-    extra = int(kit(frame, detail=detail).figures["lattice_extra"])
+    extra = int(kit(frame, detail=detail).joints[0].figures["lattice_extra"])
     edges, weave = regular(VALENCE[frame]), WEAVES[frame]
     return once(
         f"joint-{frame}-{detail}", lambda _: make_joint(edges, weave, DETAILS[detail], extra)

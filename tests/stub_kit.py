@@ -6,11 +6,13 @@ Nothing here locks; it is for tests of what comes after the geometry.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
-from scadgen.frame.layout import joint
-from scadgen.kit.model import Kit
+from scadgen.frame.layout import LAYOUTS, joint
+from scadgen.kit.model import Joint, Kit
 from scadgen.solid.affine import PARAMETERS, AffineSolid, Linear, Range
 
 Term = Mapping[str, float]
@@ -137,11 +139,29 @@ def stub_kit(
         rows=rows,
         columns=columns,
         detail="stub",
-        weave={"name": "stub", "ring_ratio": 1.5},
         command=command,
         values=values,
         ranges=ranges(values),
         parts={name: parts[name] for name in names},
-        joint=joint({"hexagonal": 3, "square": 4}[frame], key),
+        joints=(_joint({"hexagonal": 3, "square": 4}[frame], key),),
+        placements=LAYOUTS[frame](rows, columns, key),
+    )
+
+
+def _joint(valence: int, key: str) -> Joint:
+    return Joint(
+        name="",
+        turns=tuple(360 / valence * n for n in range(valence)),
+        keys=(0,),
+        caps=(),
+        connectors=("connector",) * valence,
+        weave={"name": "stub", "ring_ratio": 1.5},
+        pieces=joint(valence, key),
         figures={"play_mm_per_mm": 12.0},
     )
+
+
+def with_joint(kit: Kit, **changes: Any) -> Kit:
+    """The kit with its first joint changed."""
+    first, *others = kit.joints
+    return replace(kit, joints=(replace(first, **changes), *others))

@@ -152,6 +152,23 @@ def test_kit_takes_every_option_and_its_command_makes_it_again(run, tmp_path, mo
     ).read_bytes()
 
 
+def test_the_command_of_a_kit_has_flags_as_they_are_typed(run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "rail.svg").write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm" viewBox="0 0 9 9">'
+        '<path stroke="black" d="M0 0 H150"/><text x="9" y="9">rail</text></svg>'
+    )
+    flags = ("--no-split", "--skip-unknown", "--components", "--unchecked")
+    assert run("kit", "rail.svg", *DRAFT, *flags, "-o", "one")[0] == 0
+    command = load(tmp_path / "one").command.split()
+    assert {*flags} < {*command}
+    assert "True" not in command
+    assert run(*command[1:], "-o", "other")[0] == 0
+    assert (tmp_path / "one" / "kit.json").read_bytes() == (
+        tmp_path / "other" / "kit.json"
+    ).read_bytes()
+
+
 def test_kit_goes_into_a_folder_of_the_frames_name(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert run("kit", "hexagonal", *DRAFT, "--unchecked")[0] == 0
@@ -164,14 +181,14 @@ def test_kit_takes_a_built_in_weave(name, run, tmp_path):
     # Its proofs are those of the frame's own kit, and tested there.
     words = ("kit", frame, *DRAFT, "--weave", name, "--unchecked", "-o", tmp_path / "kit")
     assert run(*words)[0] == 0
-    assert load(tmp_path / "kit").weave == BUILT_IN[name].as_dict()
+    assert load(tmp_path / "kit").joints[0].weave == BUILT_IN[name].as_dict()
 
 
 def test_kit_takes_a_weave_from_a_file(run, tmp_path):
     (tmp_path / "mine.json").write_text(json.dumps(WEAVE))
     words = ("kit", "hexagonal", *DRAFT, "--weave", tmp_path / "mine.json", "-o", tmp_path / "kit")
     assert run(*words)[0] == 0
-    assert load(tmp_path / "kit").weave == {**WEAVE, "name": "mine"}
+    assert load(tmp_path / "kit").joints[0].weave == {**WEAVE, "name": "mine"}
 
 
 def test_kit_that_does_not_lock_is_made_only_if_asked_for_unchecked(run, refused, tmp_path):
@@ -183,7 +200,7 @@ def test_kit_that_does_not_lock_is_made_only_if_asked_for_unchecked(run, refused
     assert "--unchecked makes the kit all the same" in said
     assert not (tmp_path / "kit").exists()
     assert run(*words, "--unchecked", "-o", tmp_path / "kit")[0] == 0
-    assert load(tmp_path / "kit").weave["name"] == "straight"
+    assert load(tmp_path / "kit").joints[0].weave["name"] == "straight"
 
 
 @pytest.mark.parametrize("kind", ["stl", "3mf", "obj", "glb"])
@@ -431,6 +448,13 @@ def test_a_broken_kit_is_refused_by_every_command(edit, message, refused, folder
     assert files(tmp_path) == before
 
 
+@pytest.mark.parametrize("command", ["export", "render", "check"])
+def test_what_the_system_says_is_one_line(command, refused, tmp_path):
+    words = ("--part", "half", "-o", tmp_path / "half.stl") if command == "export" else ()
+    long = tmp_path / ("k" * 300)
+    assert refused(command, long, *words) == f"scadgen: {long}: File name too long\n"
+
+
 def test_no_kit_is_refused_by_every_command(refused, tmp_path):
     for words in (
         ("check", tmp_path),
@@ -576,7 +600,7 @@ def test_names_from_users_break_nothing(name, tmp_path):
     said = shell(*words, cwd=tmp_path)
     assert (said.returncode, said.stderr) == (0, b"")
     made = load(tmp_path / safe)
-    assert made.weave["name"] == safe
+    assert made.joints[0].weave["name"] == safe
     drawn = render(
         tmp_path / safe / "hexagonal.scad", tmp_path / "half.stl", {"part": "half"}, timeout=60
     )

@@ -38,8 +38,8 @@ def test_volumes_by_hand(kind):
         v = random_inside(made, seed)
         found = volumes(made, v)
         side, gap, play = v["side"], v["clearance"], v["peg_clearance"]
-        start = made.figures["tube_start_sides"] * side
-        pad = made.figures["pad_sides"] * side
+        start = made.joints[0].figures["tube_start_sides"] * side
+        pad = made.joints[0].figures["pad_sides"] * side
         bore = v.get("bore", 0.0) ** 2
         peg, length, tip = (
             v["peg_width"],
@@ -73,7 +73,9 @@ def test_two_halves_and_their_socket_are_a_connector_at_no_clearance(kind):
     made = kit(*kind)
     v = {**random_inside(made, 5), "clearance": 0.0, "peg_clearance": 0.0}
     found = volumes(made, v)
-    through = (made.figures["tube_start_sides"] - made.figures["pad_sides"]) * v["side"]
+    through = (
+        made.joints[0].figures["tube_start_sides"] - made.joints[0].figures["pad_sides"]
+    ) * v["side"]
     deep = v["peg_length"] if made.key == "fixed" else through
     bore = v.get("bore", 0.0) ** 2
     whole = found["connector"] + bore * through

@@ -103,7 +103,7 @@ def test_weave_example_makes_a_kit(tmp_path):
     with pytest.raises(SystemExit) as done:
         main([*words, "-o", str(tmp_path / "kit")])
     assert done.value.code == 0
-    assert load(tmp_path / "kit").weave == Weave.from_dict(entries, "gentle").as_dict()
+    assert load(tmp_path / "kit").joints[0].weave == Weave.from_dict(entries, "gentle").as_dict()
 
 
 def test_weave_table_is_the_built_in_weaves():

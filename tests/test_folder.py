@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from kits import KINDS, kit, named, proved_kit
+from kits import KINDS, kit, named, proved_kit, tee
 
 from scadgen.emit.folder import files_of, write_kit
 from scadgen.errors import InputError
@@ -54,6 +54,13 @@ def test_a_kit_is_all_of_its_files(kind, tmp_path):
     assert all(path.stat().st_size for path in (tmp_path / "kit").iterdir())
     assert dumps(load(tmp_path / "kit")) == dumps(made)
     assert [p.name for p in tmp_path.iterdir()] == ["kit"]
+
+
+def test_the_manual_names_every_file_of_a_kit():
+    manual = (Path(__file__).parent.parent / "README.md").read_text()
+    section = manual.split("### A kit's folder\n", 1)[1].split("\n## ", 1)[0]
+    for name in [*FILES, *files_of(proved_kit("hexagonal")), "placing.svg"]:
+        assert f"`{name}`" in section, name
 
 
 def test_the_same_request_gives_the_same_bytes(tmp_path):
@@ -216,9 +223,29 @@ def test_a_proved_kit_shows_how_its_joint_is_put_together(tmp_path):
     readme = (folder / "README.md").read_text()
     assert "](assembly.png)" in readme
     assert "Unchecked" not in readme
-    # An unchecked one in its place shows nothing, and says why in each text.
+    # An unchecked one in its place shows nothing.
     write_kit(kit("hexagonal"), folder)
     assert {path.name for path in folder.iterdir()} == FILES
-    for name in ("README.md", "hexagonal.scad", "Makefile"):
-        assert "unchecked" in (folder / name).read_text().lower()
-    assert '"proved": false' in (folder / "kit.json").read_text()
+
+
+def texts(kit):
+    """The kit's text files by name."""
+    files = {name: write(kit) for name, write in files_of(kit).items()}
+    return {name: text for name, text in files.items() if isinstance(text, str)}
+
+
+@pytest.mark.parametrize("make", [lambda: kit("hexagonal"), tee])
+def test_an_unchecked_kit_says_so_in_every_text(make):
+    made = make()
+    written = texts(made)
+    # JSON has no comments, and OpenSCAD's Customizer would take an entry for a set of values.
+    del written[f"{made.frame}.json"]
+    assert '"proved": false' in written.pop("kit.json")
+    assert len(written) == (5 if made.graph is None else 6)
+    for name, text in written.items():
+        assert "unchecked: nothing was proved" in text.lower().replace("*", ""), name
+
+
+def test_a_proved_kit_does_not_say_that_it_is_unchecked():
+    for name, text in texts(proved_kit("hexagonal")).items():
+        assert "unchecked" not in text.lower(), name

@@ -1,5 +1,6 @@
 """``scadgen freecad``: the workbench goes where FreeCAD looks, and nothing of others is touched."""
 
+import errno
 import json
 import os
 import shutil
@@ -80,6 +81,22 @@ def test_an_older_copy_is_brought_up_to_date(tmp_path):
     assert (where / "README.md").is_file()
 
 
+def test_what_is_there_comes_back_if_its_successor_cannot_be_put_there(tmp_path, monkeypatch):
+    before = install(tmp_path, copy=True)
+    rename = Path.rename
+
+    def fail_for_the_new(path, target):
+        if path.name == "new":
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        return rename(path, target)
+
+    monkeypatch.setattr(Path, "rename", fail_for_the_new)
+    with pytest.raises(InputError, match="cannot be changed"):
+        install(tmp_path, copy=False)
+    assert inspect(tmp_path) == before
+    assert [p.name for p in tmp_path.iterdir()] == ["Scadgen"]
+
+
 def folder(where):
     where.mkdir()
     (where / "mine.txt").write_text("mine")
@@ -135,6 +152,13 @@ def test_nothing_to_remove_and_a_folder_that_cannot_be_made(tmp_path, run):
     code, out, err = run("install", "--mod", tmp_path / "file" / "Mod")
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert "cannot be changed" in err
+
+
+@pytest.mark.parametrize("command", ["status", "install", "uninstall"])
+def test_a_folder_that_no_system_can_have_is_refused(command, tmp_path, run):
+    code, out, err = run(command, "--mod", tmp_path / ("x" * 300))
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert "cannot be looked at (File name too long); name a writable folder with --mod" in err
 
 
 def test_status_is_the_answer(tmp_path, run):

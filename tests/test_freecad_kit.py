@@ -1,18 +1,22 @@
 """Kits read and evaluated by the FreeCAD side, in plain Python."""
 
+import ast
 import copy
 import json
 import sys
 
 import numpy as np
 import pytest
-from kits import kit, random_inside
+from kits import kit, random_inside, tee
 
 from scadgen.emit.macro import workbench
+from scadgen.frame import placement
 from scadgen.frame.layout import LAYOUTS
 from scadgen.kit.store import dumps
+from scadgen.solid import affine
 
 sys.path.append(str(workbench()))
+from freecad.scadgen import layout
 from freecad.scadgen.affine import KitError, parse_kit, read_kit
 from freecad.scadgen.faces import newell
 
@@ -77,8 +81,8 @@ def test_values_out_of_range_are_named_with_what_works():
     ]
 
 
-def broken(change):
-    document = json.loads(dumps(the("hexagonal")))
+def broken(change, made=None):
+    document = json.loads(dumps(made or the("hexagonal")))
     change(document)
     return json.dumps(document)
 
@@ -92,14 +96,23 @@ def set_in(*path, value):
     return change
 
 
-def drop(name):
-    return lambda document: document.pop(name)
+def drop(*path):
+    def change(document):
+        for step in path[:-1]:
+            document = document[step]
+        del document[path[-1]]
+
+    return change
+
+
+def piece(name, value):
+    return set_in("joints", 0, "pieces", 0, name, value=value)
 
 
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        (set_in("version", value=2), "kit version 2: this reads version 1; update it, or"),
+        (set_in("version", value=3), "kit version 3: this reads version 2; update it, or"),
         (set_in("format", value="kit"), "not a kit: format is not scadgen-kit"),
         (drop("ranges"), "not a sound kit: 'ranges' is missing; make it again"),
         (drop("parts"), "not a sound kit: 'parts' is missing"),
@@ -123,8 +136,43 @@ def drop(name):
         (set_in("parts", "peg", "points", "side", 0, 0, value="x"), "not a sound kit: "),
         (set_in("parts", "peg", "points", "side", 0, 0, value=1e999), "not a finite number"),
         (set_in("parts", "peg", "points", "length", value=[]), "moved by a parameter"),
-        (set_in("joint", 0, "part", value="cog"), "the joint has no part cog"),
-        (set_in("joint", 0, value=3), "not a sound kit: "),
+        (set_in("rows", value="two"), "rows = 'two': must be a whole number from 1 to 50"),
+        (set_in("rows", value=0), "rows = 0: must be"),
+        (set_in("rows", value=True), "rows = True: must be"),
+        (set_in("columns", value=51), "columns = 51: must be"),
+        (set_in("columns", value=2.0), "columns = 2.0: must be"),
+        (set_in("key", value="glue"), "key = 'glue': must be one of fixed, loose"),
+        (set_in("key", value=["fixed"]), "key = ['fixed']: must be text"),
+        (set_in("frame", value={}), "frame = {}: must be text"),
+        (set_in("command", value=3), "command = 3: must be text"),
+        (set_in("detail", value=None), "detail = None: must be text"),
+        (set_in("ranges", 0, "reason", value=3), "reason = 3: must be text"),
+        (set_in("values", "girth", value=1.0), "live parameter = 'girth': must be one of side,"),
+        (set_in("ranges", 0, "parameter", value="girth"), "live parameter = 'girth': must be"),
+        (set_in("values", "side", value="10"), "side = '10': must be a finite number of mm"),
+        (set_in("values", "side", value=10**400), "not a sound kit: "),
+        (drop("values", "peg_length"), "live parameter peg_length is missing"),
+        (drop("parts", "tube"), "part tube is missing"),
+        (set_in("joints", value=[]), "joints = []: must be at least one"),
+        (set_in("joints", 0, "name", value=1), "name of a joint = 1: must be text"),
+        (set_in("joints", 0, "connectors", value=[]), "connectors of a joint = []: must be"),
+        (set_in("joints", 0, "connectors", 0, value="cog"), "there is no part 'cog'"),
+        (drop("joints", 0, "weave"), "not a sound kit: 'weave' is missing"),
+        (set_in("joints", 0, "weave", "name", value=1), "name of a weave = 1: must be text"),
+        (
+            set_in("joints", 0, "weave", "span", value="1"),
+            "span of a weave = '1': must be",
+        ),
+        (drop("joints", 0, "weave", "bend"), "not a sound kit: 'bend' is missing"),
+        (piece("part", "cog"), "there is no part 'cog'"),
+        (piece("at", [0.0]), "at = [0.0]: must be two finite numbers"),
+        (piece("at", [0.0, "x"]), "at = [0.0, 'x']: must be two finite numbers"),
+        (piece("at", [0.0, 1e999]), "at = [0.0, inf]: must be two finite numbers"),
+        (piece("turn", float("nan")), "turn = nan: must be a finite number of degrees"),
+        (piece("flip", 1), "flip = 1: must be true or false"),
+        (piece("role", "hero"), "role = 'hero': must be one of row, cross, half_a,"),
+        (piece("role", "a\nb" * 99), "role = 'a\\nb"),
+        (set_in("joints", 0, value=3), "not a sound kit: "),
         (set_in("parts", value=3), "not a sound kit: "),
     ],
 )
@@ -133,6 +181,39 @@ def test_a_broken_kit_is_refused_in_one_line(change, says):
         parse_kit(broken(change))
     assert says in str(refused.value)
     assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (set_in("rows", value=2), "rows = 2: must be 0"),
+        (set_in("placements", value=[]), "placements: must be at least one"),
+        (set_in("placements", 0, "role", value="hero"), "role = 'hero': must be"),
+        (set_in("placements", 0, "at", value=3), "at = 3: must be two finite numbers"),
+        (drop("placements"), "not a sound kit: 'placements' is missing"),
+    ],
+)
+def test_a_broken_kit_of_another_frame_is_refused_in_one_line(change, says):
+    assert not parse_kit(dumps(tee())).is_grid
+    with pytest.raises(KitError) as refused:
+        parse_kit(broken(change, tee()))
+    assert says in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_both_sides_know_the_same_names():
+    assert layout.PARAMETERS == affine.PARAMETERS
+    assert (layout.PARTS, layout.KEYS) == (placement.PARTS, placement.KEYS)
+    path = workbench() / "freecad" / "scadgen" / "names.py"
+    tables = {
+        node.targets[0].id: tuple(key.value for key in node.value.keys)
+        for node in ast.parse(path.read_text("utf-8")).body
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Dict)
+    }
+    assert tables["LENGTHS"] == layout.PARAMETERS
+    assert tables["KINDS"] == layout.PARTS
+    assert tables["COLOURS"] == tables["ROLE_LABELS"] == layout.ROLES
+    assert tables["FRAMES"] == tuple(layout.LAYOUTS)
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "3", None, "[" * 100000])

@@ -35,7 +35,7 @@ def general(frame, detail):
     """Joint by the general path: a hundred-billionth of a radian off regular."""
     edges = regular(len(joint(frame).edges))
     edges[1] += 1e-11
-    extra = int(kit(frame, detail=detail).figures["lattice_extra"])
+    extra = int(kit(frame, detail=detail).joints[0].figures["lattice_extra"])
     return make_joint(edges, WEAVES[frame], DETAILS[detail], extra)
 
 

@@ -131,7 +131,7 @@ def test_a_scaled_kit_is_the_kit_scaled():
 )
 def test_all_that_mates_is_one_clearance_apart(kind, detail):
     made = kit(*kind, detail)
-    pieces = list(made.joint)
+    pieces = list(made.joints[0].pieces)
     if made.key == "loose":
         # The tube with the peg's other socket; it starts where the halves end.
         pieces.append(Placement("two_sided", (0.0, 0.0), 0.0, flip=False, role="cross"))
@@ -210,7 +210,7 @@ def test_what_is_not_finite_is_outside_every_range(name, value):
 @kinds
 def test_nothing_turns_over_or_crosses_up_to_the_widest_clearance(kind):
     made = kit(*kind)
-    limit = made.figures["clearance_limit_sides"] * 10
+    limit = made.joints[0].figures["clearance_limit_sides"] * 10
     assert limit >= 0.4
     for share in np.linspace(0, 1, 20):
         values = {**made.values, "clearance": share * limit}
@@ -223,7 +223,7 @@ def test_nothing_turns_over_or_crosses_up_to_the_widest_clearance(kind):
 def test_nothing_turns_over_at_a_finer_level_either():
     for frame in WEAVES:
         made = kit(frame, detail="standard")
-        limit = made.figures["clearance_limit_sides"] * 10
+        limit = made.joints[0].figures["clearance_limit_sides"] * 10
         for share in (0.25, 0.5, 0.75, 1.0):
             values = {**made.values, "clearance": share * limit}
             for name in ("connector", "half"):

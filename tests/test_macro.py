@@ -6,7 +6,7 @@ import sys
 import freecadcmd
 import numpy as np
 import pytest
-from kits import bounds, inside, kit, random_inside
+from kits import bounds, inside, kit, random_inside, tee
 from python38 import newer
 
 from scadgen.emit.macro import macro
@@ -97,6 +97,22 @@ def test_every_part_is_the_same_solid_at_any_setting(made, file, tmp_path):
     assert "rror" not in said
 
 
+def test_the_macro_of_any_frame_opens_it_with_sound_solids(tmp_path):
+    made = tee()
+    path = tmp_path / "tee.FCMacro"
+    path.write_text(macro(made), encoding="utf-8")
+    found, said = freecadcmd.run("macro.py", tmp_path, task="opens", macro=str(path))
+    assert found["valid"] == [True] * len(made.parts)
+    assert list(found["parts"]) == list(made.parts)
+    for name, facts in found["parts"].items():
+        same(facts, made, name, made.values)
+    sizes = {name: expected(made, name, made.values)[0] for name in made.parts}
+    pieces = {"Frame": made.placements} | {f"Joint{j.name}": j.pieces for j in made.joints}
+    wholes = {name: sum(sizes[p.part] for p in placed) for name, placed in pieces.items()}
+    assert found["wholes"] == pytest.approx(wholes, rel=1e-6)
+    assert "rror" not in said
+
+
 def matrix(placement, edge_length):
     """Four by four, row by row: half turn about x, turn about z, move."""
     c, s = np.cos(np.radians(placement.turn)), np.sin(np.radians(placement.turn))
@@ -119,10 +135,10 @@ def test_joint_and_frame_are_links_to_the_parts(made, file, tmp_path):
     found, _ = freecadcmd.run("macro.py", tmp_path, task="assembly", macro=str(file), wider=123.0)
     assert found["types"] == ["App::Link", "App::LinkPython"]
     frame = LAYOUTS[made.frame](made.rows, made.columns, made.key)
-    for name, placements in (("joint", made.joint), ("frame", frame)):
+    for name, placements in (("joint", made.joints[0].pieces), ("frame", frame)):
         sizes = [expected(made, p.part, made.values)[0] for p in placements]
         assert found[f"{name}_volume"] == pytest.approx(sum(sizes), rel=1e-6)
-    assert_placed(found["joint"], made.joint, 0.0)
+    assert_placed(found["joint"], made.joints[0].pieces, 0.0)
     assert_placed(found["frame"], frame, 123.0)
 
 

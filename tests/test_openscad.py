@@ -204,6 +204,8 @@ def test_faulty_stl_is_told(tmp_path):
         check_stl(stl(path, CUBE, turned))
     with pytest.raises(ToolError, match=r"volume = -1 mm3: must be above 0"):
         check_stl(stl(path, CUBE, CUBE_FACES[:, ::-1]))
+    with pytest.raises(ToolError, match=r"volume = 0 mm3: must be above 0; it is flat"):
+        check_stl(stl(path, CUBE, np.array([[0, 1, 2], [0, 2, 1]])))
     whole = stl(path, CUBE, CUBE_FACES).read_bytes()
     path.write_bytes(whole[:-1])
     with pytest.raises(ToolError, match=f"{len(whole) - 1} bytes: not a whole binary STL"):
@@ -232,7 +234,7 @@ class Project:
         folder.mkdir()
         self.scad.write_text(scad(kit), encoding="ascii")
         (folder / "Makefile").write_text(makefile(kit), encoding="ascii")
-        (folder / "check_stl.py").write_text(stl_check(), encoding="ascii")
+        (folder / "check_stl.py").write_text(stl_check(kit), encoding="ascii")
 
     def make(self, *arguments):
         environ = {k: v for k, v in os.environ.items() if not k.startswith("MAKE")}
@@ -403,6 +405,7 @@ def test_the_kits_checker_alone(project, tmp_path):
     for triangles, message in (
         (CUBE_FACES[1:], "not watertight"),
         (CUBE_FACES[:, ::-1], "inside out"),
+        (np.array([[0, 1, 2], [0, 2, 1]]), "flat"),
     ):
         status, said = checked(project, stl(path, CUBE, triangles))
         assert status == 1

@@ -4,6 +4,8 @@ import ast
 import importlib
 import inspect
 import pkgutil
+import re
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -61,6 +63,19 @@ def test_what_is_private_is_not_imported_from_elsewhere(name):
 def test_packages_say_what_they_are_or_nothing():
     for folder in {p.parent for p in ROOT.rglob("*.py")}:
         assert (folder / "__init__.py").is_file()
+
+
+def test_the_layers_that_are_enforced_are_those_that_are_explained():
+    settings = tomllib.loads((ROOT.parent / "pyproject.toml").read_text())
+    layers, _ = settings["tool"]["importlinter"]["contracts"]
+    table = [
+        re.findall(r"`scadgen/(\w+)`", line.split("|")[1])
+        for line in (ROOT.parent / "CONTRIBUTING.md").read_text().splitlines()
+        if line.startswith("| `scadgen/")
+    ]
+    assert [sorted(row) for row in table] == [
+        sorted(layer.split(" : ")) for layer in layers["layers"]
+    ]
 
 
 def test_the_version_is_one():

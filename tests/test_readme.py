@@ -1,12 +1,11 @@
 """The kit's README: its tables can be worked out by hand, and names cannot break it."""
 
 import re
-from dataclasses import replace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from stub_kit import COMMAND, stub_kit
+from stub_kit import COMMAND, stub_kit, with_joint
 
 from scadgen.emit.readme import readme
 from scadgen.emit.scad_parameters import limits
@@ -109,7 +108,7 @@ def test_it_says_what_is_proved_of_the_joint_or_that_nothing_is():
     unchecked = section(readme(stub_kit()), "What is known about this kit")
     assert "**Unchecked**" in unchecked
     assert "Proved" not in unchecked
-    checked = replace(stub_kit(), verdicts={"whole connectors lock": "9 contacts in balance"})
+    checked = with_joint(stub_kit(), verdicts={"whole connectors lock": "9 contacts in balance"})
     text = section(readme(checked), "What is known about this kit")
     assert "- whole connectors lock: 9 contacts in balance" in text
     assert "nchecked" not in text
@@ -133,8 +132,8 @@ def test_kit_made_without_a_command_says_so():
     command=st.text(st.characters(codec="utf-8") | st.sampled_from("`|<>#\n\r\u2028")),
 )
 def test_no_name_can_change_the_structure(name, command):
-    plain = readme(replace(stub_kit(), weave={"name": "x", "span": 1.0}, command="x"))
-    kit = replace(stub_kit(), weave={"name": name, "span": 1.0}, command=f"x{command}")
+    plain = readme(with_joint(stub_kit(command="x"), weave={"name": "x", "span": 1.0}))
+    kit = with_joint(stub_kit(command=f"x{command}"), weave={"name": name, "span": 1.0})
     text = readme(kit)
     text.encode()
     assert len(text.splitlines()) == len(plain.splitlines())

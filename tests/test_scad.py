@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
-from stub_kit import loft, stub_kit
+from stub_kit import loft, stub_kit, with_joint
 
 from scadgen.emit.scad import parameter_sets, scad
 from scadgen.emit.scad_parameters import limits
@@ -118,7 +118,7 @@ def test_assemblies_are_one_watertight_solid_of_many_shells(part, kit, file, tmp
         return
     joint = part.startswith("joint")
     layout = LAYOUTS[kit.frame](kit.rows, kit.columns, kit.key)
-    expected = placed_volume(kit, kit.joint if joint else layout)
+    expected = placed_volume(kit, kit.joints[0].pieces if joint else layout)
     assert measured == pytest.approx(expected, rel=1e-6)
     (said,) = [e for e in drawn.echoes if e.startswith('"volume')]
     assert float(said.split()[2]) == pytest.approx(expected, rel=1e-5)
@@ -310,7 +310,7 @@ def test_modules_check_their_arguments(call, message, hexagonal, tmp_path):
 def test_other_modules_can_be_used(kit, file, tmp_path):
     layout = LAYOUTS[kit.frame]
     for call, placements in {
-        "joint(explode = 1);": kit.joint,
+        "joint(explode = 1);": kit.joints[0].pieces,
         "frame(1, 2, 0.5);": layout(1, 2, kit.key),
         "plate(1, 1, 1);": layout(1, 1, kit.key),
     }.items():
@@ -416,7 +416,7 @@ def test_parameter_sets_are_inside_the_ranges_and_known_to_the_file(kit, file, t
         options = ("-p", str(tmp_path / "sets.json"), "-P", name)
         render(file, tmp_path / "set.stl", {}, timeout=60, options=options)
         if values["part"] == "joint":
-            expected = placed_volume(replace(kit, values=live), kit.joint)
+            expected = placed_volume(replace(kit, values=live), kit.joints[0].pieces)
             assert check_stl(tmp_path / "set.stl") == pytest.approx(expected, rel=1e-6)
 
 
@@ -444,8 +444,7 @@ NASTY = 'a\n*/ cube(9); /* \u00e9 "q" \\\r\n\u2028sphere(); \x00 \\'
 
 def test_nasty_text_stays_text(tmp_path):
     kit = replace(
-        stub_kit(command=NASTY),
-        weave={NASTY: NASTY},
+        with_joint(stub_kit(command=NASTY), weave={NASTY: NASTY}),
         detail=NASTY,
         ranges=tuple(replace(r, reason=NASTY) for r in stub_kit().ranges),
     )

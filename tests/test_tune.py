@@ -51,7 +51,7 @@ def test_the_built_in_weave_is_found_again_and_written(run, tmp_path):
 def test_the_same_seed_looks_at_the_same_weaves_on_any_number_of_cores():
     def looked(jobs, seed=1):
         search = Search(PAIR, seed, Record(None, PAIR, seed))
-        next(iter(rounds(search, [], 60, jobs)))
+        next(iter(rounds(search, [], 3600, jobs)))
         return search.looked
 
     one = looked(1)
@@ -119,7 +119,9 @@ def test_the_record_of_another_search_is_refused_and_kept(tmp_path):
         (("--budget", 0), "budget = 0 s: must be above 0"),
         (("--jobs", 0), "jobs = 0: must be at least 1"),
         (("--record", "."), "name another file"),
-        (("--output", "."), "name a file"),
+        (("--output", "."), "it is not a file; name one that is"),
+        (("--output", "nowhere/x.json"), "No such file or directory; name one in a"),
+        (("--seed", -1), "seed = -1: must be at least 0"),
     ],
 )
 def test_bad_requests_are_refused_in_a_line(words, reason, run, tmp_path, monkeypatch):

@@ -2,20 +2,25 @@
 
 import json
 import math
+import re
+import time
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from kits import kit, mesh, proved_kit, regular
-from shapes import box
+from shapes import box, torus
+from stub_kit import stub_kit, with_joint
 
 import scadgen.joint.joint as joints
+from scadgen.check import ways
 from scadgen.check.joint_contacts import whole_contacts
 from scadgen.check.known import known_ways
 from scadgen.check.locking import TIP
 from scadgen.check.proof import proved
 from scadgen.check.ways import come_apart
 from scadgen.errors import GeometryError, InputError, KitError
+from scadgen.frame.placement import Placement
 from scadgen.interlock.assembly import make_assembly
 from scadgen.interlock.contacts import find_contacts
 from scadgen.interlock.escape import escape
@@ -25,6 +30,7 @@ from scadgen.interlock.verdict import Certificate, Motion, verdict
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.weave import BUILT_IN, Weave
 from scadgen.kit.build import Request, build
+from scadgen.kit.model import Way
 from scadgen.kit.store import dumps, loads
 
 STAGES = {
@@ -38,7 +44,7 @@ STAGES = {
 @pytest.mark.parametrize("detail", ["draft", "standard"])
 def test_built_in_joints_come_apart_on_known_ways(frame, key, detail):
     made = kit(frame, key, detail=detail)
-    found = list(come_apart(made, known_ways(made), seconds=1e-3))
+    found = list(come_apart(made, made.joints[0], known_ways(made, made.joints[0]), seconds=1e-3))
     assert all(result.good for result, _ in found)
     assert [result.check.split(" come")[0] for result, _ in found] == STAGES[frame]
 
@@ -47,27 +53,35 @@ def test_built_in_joints_come_apart_on_known_ways(frame, key, detail):
 def test_known_ways_hold_at_any_size_and_with_a_bore(side):
     values = {"side": side, "clearance": 0.03 * side, "bore": 0.15 * side}
     made = build(Request("hexagonal", "loose", detail="draft", values=values))
-    assert all(result.good for result, _ in come_apart(made, known_ways(made), seconds=1e-3))
+    assert all(
+        result.good
+        for result, _ in come_apart(
+            made, made.joints[0], known_ways(made, made.joints[0]), seconds=1e-3
+        )
+    )
 
 
 def test_a_kit_carries_what_is_proved_of_it():
     made = proved_kit("hexagonal")
-    assert len(made.ways) == 4
-    assert "half A comes out" in made.verdicts
-    assert "play of a tube's tip" in made.verdicts
+    assert len(made.joints[0].ways) == 4
+    assert "half A comes out" in made.joints[0].verdicts
+    assert "play of a tube's tip" in made.joints[0].verdicts
     again = loads(dumps(made))
     assert dumps(again) == dumps(made)
     # Read back, its own ways are enough.
-    assert all(result.good for result, _ in come_apart(again, again.ways, seconds=1e-3))
+    assert all(
+        result.good
+        for result, _ in come_apart(again, again.joints[0], again.joints[0].ways, seconds=1e-3)
+    )
 
 
 def test_a_way_through_a_wall_is_not_believed_and_another_is_found():
     made = proved_kit("hexagonal")
-    peg, half, *_ = made.ways
+    peg, half, *_ = made.joints[0].ways
     lifted = np.zeros((2, 6))
     lifted[1, 2] = 10.0
     through = replace(half, path=Path.through(lifted, half.path.middle))
-    (_, first), (result, second), *_ = come_apart(made, [peg, through])
+    (_, first), (result, second), *_ = come_apart(made, made.joints[0], [peg, through])
     assert first is peg
     assert result.good
     assert second is not through
@@ -76,13 +90,51 @@ def test_a_way_through_a_wall_is_not_believed_and_another_is_found():
 
 def test_a_joint_without_clearance_is_not_proved_to_come_apart():
     made = build(Request("hexagonal", detail="draft", values={"clearance": 0, "peg_clearance": 0}))
-    with pytest.raises(GeometryError, match=r"comes out: no way found.*more clearance"):
+    with pytest.raises(
+        GeometryError, match=r"comes out: none found in \d+ tries, must be.*more clearance"
+    ):
         proved(made)
+
+
+@pytest.fixture
+def _linked_rings(monkeypatch):
+    """A joint of four connectors: two linked rings that nothing takes apart, and two boxes."""
+    ring, faces = torus(24, 12)
+    upright = ring[:, [0, 2, 1]] * (1, 1, -1) + (3, 0, 0)
+    boxes = [box((x, 0, 0), (x + 1, 1, 1)) for x in (20, 22)]
+    shapes = [(ring, faces), (upright, faces), *boxes]
+    monkeypatch.setattr(ways, "pieces", lambda *_: shapes)
+    monkeypatch.setattr(ways, "tubes", lambda *_: {})
+
+
+def of_four_connectors(known=(), **options):
+    four = tuple(Placement("connector", (0, 0), 90.0 * n, flip=False, role="cap") for n in range(4))
+    made = with_joint(stub_kit("square"), pieces=four)
+    return list(come_apart(made, made.joints[0], known, **options))
+
+
+@pytest.mark.usefixtures("_linked_rings")
+def test_connectors_that_leave_as_one_are_not_apart():
+    together = Path.through(np.array([np.zeros(6), [0, 0, 40, 0, 0, 0]], dtype=float), np.zeros(3))
+    known = [Way("4 connectors come apart", (0, 1), together)]
+    found = of_four_connectors(known, seconds=4)
+    assert [way.moving for _, way in found if way] == [(2,), (3,)]
+    assert not found[-1][0].good
+
+
+@pytest.mark.usefixtures("_linked_rings")
+def test_a_stage_is_given_up_in_its_time_and_says_what_was_tried():
+    started = time.monotonic()
+    *_, (result, _) = of_four_connectors(seconds=4)
+    assert result.check == "2 connectors come apart"
+    assert re.fullmatch(r"none found in [1-9]\d* tries, time was up", result.figure)
+    # Two rings and three seeds at four seconds each would take 24.
+    assert time.monotonic() - started < 16
 
 
 def damaged(change):
     document = json.loads(dumps(proved_kit("hexagonal")))
-    change(document["ways"][0])
+    change(document["joints"][0]["ways"][0])
     return json.dumps(document)
 
 

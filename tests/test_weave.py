@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from scadgen.errors import InputError
 from scadgen.frame.placement import KEYS
-from scadgen.joint.weave import BUILT_IN, SiteCurve, Weave
+from scadgen.joint.weave import BUILT_IN, SiteCurve, Weave, any_joint
 from scadgen.kit.build import VALENCE
 
 GOOD = {"ring_ratio": 1.5, "span": 0.8, "amplitude": 0.2, "bend": 0.5, "periods": 1.0}
@@ -36,6 +36,8 @@ def curve(samples=60, **changes):
         ("periods", "1"),
         ("periods", True),
         ("periods", None),
+        ("stretch", 0.9),
+        ("stretch", math.inf),
     ],
 )
 def test_a_parameter_out_of_its_limits_is_refused_with_value_and_limits(name, value):
@@ -49,6 +51,8 @@ def test_a_weave_read_back_is_the_weave():
     weave = Weave(**GOOD, name="mine")
     assert Weave.from_dict(weave.as_dict(), "mine") == weave
     assert Weave.from_dict(GOOD, "mine").name == "mine"
+    stretched = Weave(**GOOD, stretch=3.0)
+    assert Weave.from_dict(stretched.as_dict(), "mine") == stretched != weave
 
 
 @pytest.mark.parametrize("entries", [{}, [], "weave", None, {**GOOD, "twist": 1.0}, {"span": 0.8}])
@@ -94,6 +98,46 @@ def test_it_goes_up_on_one_side_and_down_on_the_other():
     assert np.allclose(ahead, behind * [1, -1, -1], atol=1e-15)
 
 
+def test_a_stretch_as_long_as_the_gap_changes_nothing():
+    u = np.linspace(-1, 1, 9)
+    plain, whole = curve(), curve(stretch=GAP * 1.5 + 0.1)
+    assert np.array_equal(plain.points(u), whole.points(u))
+
+
+def test_beyond_its_stretch_an_arm_follows_the_ring_and_then_weaves_as_in_a_narrow_gap():
+    stretch, wide = 2.0, 5.0
+    weave = Weave(**GOOD, stretch=stretch)
+    narrow = SiteCurve(weave, 0.0, stretch / 1.5, stretch / 1.5, 60)
+    site = SiteCurve(weave, 0.0, wide / 1.5, wide / 1.5, 60)
+    # Half of what is not woven lies on each side of the gap's middle.
+    turn = (wide - stretch) / 2 / 1.5
+    c, s = math.cos(turn), math.sin(turn)
+    end = narrow.points(np.array(1.0)) @ [[c, s, 0], [-s, c, 0], [0, 0, 1]]
+    assert np.allclose(site.points(np.array(1.0)), end, atol=1e-4)
+    x, y, z = site.points(np.linspace(0, 0.2, 9)).T
+    assert np.allclose(np.hypot(x, y), 1.5, atol=1e-3)
+    assert np.allclose(z, 0, atol=0.02)
+
+
+@pytest.mark.parametrize(("degrees", "count"), [(90, 4), (60, 6)])
+def test_the_weave_for_any_joint_is_the_built_in_one_where_gaps_are_even(degrees, count):
+    weave, known = any_joint(math.radians(degrees)), BUILT_IN[f"{count}-loose"]
+    assert weave.shape == pytest.approx(known.shape, abs=0.01)
+
+
+@pytest.mark.parametrize("degrees", [25, 45, 60, 75, 90, 120, 180])
+def test_the_weave_for_any_joint_weaves_in_all_of_the_smallest_gap(degrees):
+    weave = any_joint(math.radians(degrees))
+    assert weave.stretch is not None
+    woven = weave.ring_ratio * math.radians(degrees)
+    assert woven >= weave.stretch - 0.05 or weave.ring_ratio == 8
+
+
+def test_edges_too_near_each_other_for_any_ring_are_refused():
+    with pytest.raises(InputError, match=r"edges 20 degrees apart: must be at least 24\.\d+ for"):
+        any_joint(math.radians(20))
+
+
 def test_turned_about_the_axis():
     one, other = curve(), curve().turned(0.3)
     c, s = math.cos(0.3), math.sin(0.3)
@@ -116,12 +160,12 @@ def test_distance_from_a_straight_curve_by_hand():
     st.floats(0.3, 1.1),
     st.floats(0.0, 0.4),
     st.floats(0.0, 1.0),
-    st.floats(0.5, 2.0),
+    st.sampled_from([None, 1.0, 2.0]),
     st.integers(0, 2**32 - 1),
 )
-def test_distance_is_that_from_the_nearest_of_many_samples(ring, span, lift, bend, periods, seed):
-    weave = Weave(ring, span, lift, bend, periods)
-    site = SiteCurve(weave, 0.0, GAP, GAP, 240)
+def test_distance_is_that_from_the_nearest_of_many_samples(ring, span, lift, bend, stretch, seed):
+    weave = Weave(ring, span, lift, bend, 1.2, stretch=stretch)
+    site = SiteCurve(weave, 0.0, GAP, GAP - 0.7, 240)
     points = np.random.default_rng(seed).uniform([0, -2, -0.5], [ring + 0.5, 2, 0.5], (40, 3))
     found, gradient = site.distance(points)
     dense = site.points(np.linspace(-1, 1, 4001))

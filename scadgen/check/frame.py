@@ -9,11 +9,10 @@ from functools import cached_property
 
 import numpy as np
 
-from scadgen.emit.frame_picture import joint_name
 from scadgen.frame.graph import Frame
 from scadgen.frame.joints import least_gap, least_scale, ring_ratios, tube_start
 from scadgen.frame.planarity import where
-from scadgen.frame.sameness import Sameness
+from scadgen.frame.sameness import Sameness, joint_name
 from scadgen.joint.weave import BUILT_IN, LIMITS
 from scadgen.solid.affine import Floats
 

@@ -15,18 +15,18 @@ from scadgen.frame.placement import Placement
 from scadgen.joint.joint import (
     DETAILS,
     Detail,
-    Joint,
     check_footprint,
     make_joint,
     site_curves,
 )
+from scadgen.joint.joint import Joint as MadeJoint
 from scadgen.joint.lattice import Lattice, make_lattice, without_corners
 from scadgen.joint.tidy import corners_in_the_way
 from scadgen.joint.weave import SiteCurve, Weave
 from scadgen.kit.build import Request, build
-from scadgen.kit.model import Kit
+from scadgen.kit.model import Joint, Kit
 from scadgen.kit.store import dumps
-from scadgen.solid.affine import Floats, Ints
+from scadgen.solid.affine import AffineSolid, Floats, Ints
 from scadgen.solid.gap import overlap_volume, smallest_gap
 from scadgen.solid.mesh import solid_faults, volume
 
@@ -41,6 +41,8 @@ __all__ = [
     "placed",
     "same",
     "sampling",
+    "standing",
+    "weave_of",
 ]
 
 #: Clearances at which the gaps are measured, in sides: 0.05, 0.1, 0.2 and 0.4 mm at side 10 mm;
@@ -59,7 +61,13 @@ _WALL = {"draft": 0.008, "standard": 0.002, "fine": 0.0007}
 
 def placed(kit: Kit, placement: Placement, values: Mapping[str, float]) -> tuple[Floats, Ints]:
     """A part's mesh where it stands."""
-    solid = kit.parts[placement.part]
+    return standing(kit.parts[placement.part], placement, values)
+
+
+def standing(
+    solid: AffineSolid, placement: Placement, values: Mapping[str, float]
+) -> tuple[Floats, Ints]:
+    """A solid's mesh where a placement puts it."""
     points = solid.points(values) * ([1.0, -1.0, -1.0] if placement.flip else [1.0, 1.0, 1.0])
     angle = math.radians(placement.turn)
     c, s = math.cos(angle), math.sin(angle)
@@ -75,11 +83,16 @@ def same(kit: Kit) -> Result:
         kit.rows,
         kit.columns,
         kit.detail,
-        _weave(kit),
+        weave_of(kit.joints[0]) if kit.graph is None else None,
         {**kit.values},
         kit.command,
+        kit.graph,
+        kit.rim,
     )
-    equal = dumps(replace(build(request), verdicts=kit.verdicts, ways=kit.ways)) == dumps(kit)
+    made = build(request)
+    pairs = zip(made.joints, kit.joints, strict=False)
+    joints = tuple(replace(a, verdicts=b.verdicts, ways=b.ways) for a, b in pairs)
+    equal = dumps(replace(made, joints=joints)) == dumps(kit)
     return Result(
         "the parameters make this kit",
         equal,
@@ -118,30 +131,37 @@ def _extremes(kit: Kit) -> Iterator[dict[str, float]]:
                 yield values
 
 
-def partition(kit: Kit) -> Iterator[Result]:
+def partition(kit: Kit, joint: Joint) -> Iterator[Result]:
     """Whether the connectors make up the domain, and the halves their connector."""
     values = {**kit.values, "side": 1.0, "clearance": 0.0, "peg_clearance": 0.0}
     values |= {"peg_width": 0.3, "peg_length": 0.4, "bore": 0.1 if "bore" in kit.values else 0.0}
-    start, pad = kit.figures["tube_start_sides"], kit.figures["pad_sides"]
+    start, pad = joint.figures["tube_start_sides"], joint.figures["pad_sides"]
     bore = values["bore"] ** 2 * (start - pad)
-    whole, half = (
-        volume(kit.parts[n].points(values), kit.parts[n].triangles) for n in ("connector", "half")
-    )
-    count = kit.valence
-    domain = kit.figures["domain_volume_sides3"]
-    off = abs(count * (whole + bore) / domain - 1)
+    halves = {p.part for p in joint.pieces if p.role in ("half_a", "half_b")}
+    content = {
+        name: volume(kit.parts[name].points(values), kit.parts[name].triangles)
+        for name in {*joint.connectors, *halves}
+    }
+    domain = joint.figures["domain_volume_sides3"]
+    off = abs(sum(content[name] + bore for name in joint.connectors) / domain - 1)
     yield Result("connectors make up the domain", off < _VOLUME, f"{off:.1e} off", f"{_VOLUME:g}")
     deep = start - pad if kit.key == "loose" else values["peg_length"]
     socket = values["peg_width"] ** 2 * deep + values["bore"] ** 2 * (start - pad - deep)
-    off = abs((2 * half + socket) / (whole + bore) - 1)
+    parts = [p.part for p in joint.pieces if p.role in ("half_a", "half_b")]
+    pairs = zip(joint.keys, parts[::2], parts[1::2], strict=True)
+    off = max(
+        abs((content[a] + content[b] + socket) / (content[joint.connectors[edge]] + bore) - 1)
+        for edge, a, b in pairs
+    )
     yield Result("halves make up a connector", off < _VOLUME, f"{off:.1e} off", f"{_VOLUME:g}")
 
 
-def footprint(kit: Kit) -> Result:
-    """Whether a tube's face belongs to its connector alone, proven from the curves."""
-    made = joint_of(kit, DETAILS[kit.detail])
+def footprint(kit: Kit, joint: Joint) -> Result:
+    """Whether each tube's face belongs to its connector alone, proven from the curves."""
+    lattice, curves = lattice_of(joint, DETAILS[kit.detail])
     try:
-        check_footprint(made.lattice, made.curves, 0)
+        for edge in range(len(joint.turns)):
+            check_footprint(lattice, curves, edge)
     except ScadgenError as error:
         return Result(
             "a tube's face is its connector's", good=False, figure=str(error), bound="100 %"
@@ -149,21 +169,21 @@ def footprint(kit: Kit) -> Result:
     return Result("a tube's face is its connector's", good=True, figure="proven", bound="100 %")
 
 
-def gaps(kit: Kit) -> Iterator[Result]:
+def gaps(kit: Kit, joint: Joint) -> Iterator[Result]:
     """Whether all pieces at a joint that mate are one clearance apart, and none overlap."""
     side = kit.values["side"]
-    touching = {pair for pair, gap in _gaps(kit, 1e-3 * side).items() if gap < 2e-3 * side}
+    touching = {pair for pair, gap in _gaps(kit, joint, 1e-3 * side).items() if gap < 2e-3 * side}
     limit = min(r.high(kit.values) for r in kit.ranges if r.parameter == "clearance")
     scale = min(side, limit / max(CLEARANCES))
     for share in CLEARANCES:
         clearance = share * scale
         name = f"gap at clearance {clearance:g} mm"
-        found = _gaps(kit, clearance)
+        found = _gaps(kit, joint, clearance)
         ratios = [found[pair] / clearance for pair in touching]
         good = min(ratios) > 1 - _GAP and max(ratios) < 1 + _GAP and min(found.values()) > 0
         figure = f"{min(ratios):.3f} to {max(ratios):.3f} of it, {len(touching)} mating pairs"
         yield Result(name, good, figure, f"{1 - _GAP:g} to {1 + _GAP:g}")
-        common = max(_overlaps(kit, clearance))
+        common = max(_overlaps(kit, joint, clearance))
         yield Result(
             f"overlap at clearance {clearance:g} mm", common <= 0, f"{common:g} mm3", "none"
         )
@@ -173,34 +193,36 @@ def _at(kit: Kit, clearance: float) -> dict[str, float]:
     return {**kit.values, "clearance": clearance, "peg_clearance": clearance}
 
 
-def _gaps(kit: Kit, clearance: float) -> dict[tuple[int, int], float]:
+def _gaps(kit: Kit, joint: Joint, clearance: float) -> dict[tuple[int, int], float]:
     """Smallest gap between each two pieces of the joint, in mm; 2 sides if they are farther."""
-    meshes = [placed(kit, p, _at(kit, clearance)) for p in kit.joint]
+    meshes = [placed(kit, p, _at(kit, clearance)) for p in joint.pieces]
     pairs = itertools.combinations(range(len(meshes)), 2)
     far = 2 * kit.values["side"]
     return {(a, b): smallest_gap(*meshes[a], *meshes[b], far) for a, b in pairs}
 
 
-def _overlaps(kit: Kit, clearance: float) -> Iterator[float]:
+def _overlaps(kit: Kit, joint: Joint, clearance: float) -> Iterator[float]:
     """Volume that each two pieces of the joint share, in cubic mm."""
-    meshes = [placed(kit, p, _at(kit, clearance)) for p in kit.joint]
+    meshes = [placed(kit, p, _at(kit, clearance)) for p in joint.pieces]
     for a, b in itertools.combinations(meshes, 2):
         yield overlap_volume(*a, *b)
 
 
-def sampling(kit: Kit) -> Iterator[Result]:
+def sampling(kit: Kit, joint: Joint) -> Iterator[Result]:
     """How far walls and volumes move when samples double, and what the lattice leaves out."""
     detail, bound = DETAILS[kit.detail], _WALL[kit.detail]
-    once = joint_of(kit, detail)
-    twice = joint_of(kit, Detail(2 * detail.samples, detail.cells))
-    first, second = once.connectors[0], twice.connectors[0]
-    same_walls = first.walls.shape == second.walls.shape and bool(
-        (first.walls == second.walls).all()
+    once = joint_of(joint, detail)
+    twice = joint_of(joint, Detail(2 * detail.samples, detail.cells))
+    pairs = list(zip(once.connectors, twice.connectors, strict=True))
+    same_walls = all(np.array_equal(first.walls, second.walls) for first, second in pairs)
+    moved = (
+        max(float(np.abs(first.points - second.points).max()) for first, second in pairs)
+        if same_walls
+        else math.inf
     )
-    moved = float(np.abs(first.points - second.points).max()) if same_walls else math.inf
     figure = f"{moved:.1e} sides" if same_walls else "other walls"
     yield Result("walls move when samples double", moved < bound, figure, f"{bound:g} sides")
-    off = _off_wall(once)
+    off = np.concatenate([_off_wall(once, edge) for edge in range(len(once.connectors))])
     figure = f"{off.mean():.5f} sides on average, {off.max():.4f} at most"
     yield Result(
         "faces' distance from the exact walls",
@@ -210,12 +232,13 @@ def sampling(kit: Kit) -> Iterator[Result]:
     )
 
 
-def _off_wall(made: Joint) -> Floats:
-    """Distance of the walls' faces from the exact walls, at their middles and their sides'."""
-    connector = made.connectors[0]
+def _off_wall(made: MadeJoint, edge: int) -> Floats:
+    """Distance of a connector's walls' faces from the exact walls, at middles and sides'."""
+    connector = made.connectors[edge]
     weights = np.array([[1, 1, 1], [1, 1, 0], [0, 1, 1], [1, 0, 1]]) / [[3], [2], [2], [2]]
     points = np.einsum("qk,tkx->tqx", weights, connector.points[connector.walls]).reshape(-1, 3)
-    found = [curve.distance(points) for curve in made.curves]
+    angle = float(made.edges[edge])
+    found = [curve.turned(-angle).distance(points) for curve in made.curves]
     far, slope = np.stack([d for d, _ in found]), np.stack([g for _, g in found])
     near, next_ = np.argsort(far, axis=0)[:2]
     row = np.arange(len(points))
@@ -223,22 +246,21 @@ def _off_wall(made: Joint) -> Floats:
     return np.asarray((far[next_, row] - far[near, row]) / steep)
 
 
-def _weave(kit: Kit) -> Weave:
-    return Weave.from_dict(dict(kit.weave), str(kit.weave["name"]))
+def weave_of(joint: Joint) -> Weave:
+    """The weave of a kind of joint."""
+    return Weave.from_dict(dict(joint.weave), str(joint.weave["name"]))
 
 
-def joint_of(kit: Kit, detail: Detail) -> Joint:
-    """The kit's joint at some detail, on the kit's own lattice."""
-    return make_joint(_edges(kit), _weave(kit), detail, int(kit.figures["lattice_extra"]))
+def joint_of(joint: Joint, detail: Detail) -> MadeJoint:
+    """A kind of joint made anew at some detail, on its own lattice."""
+    return make_joint(
+        joint.directions, weave_of(joint), detail, int(joint.figures["lattice_extra"])
+    )
 
 
-def lattice_of(kit: Kit, detail: Detail) -> tuple[Lattice, tuple[SiteCurve, ...]]:
+def lattice_of(joint: Joint, detail: Detail) -> tuple[Lattice, tuple[SiteCurve, ...]]:
     """Its lattice and its site curves alone."""
-    weave, extra = _weave(kit), int(kit.figures["lattice_extra"])
-    lattice = make_lattice(_edges(kit), weave.ring_ratio, detail.cells, extra)
+    weave, extra = weave_of(joint), int(joint.figures["lattice_extra"])
+    lattice = make_lattice(joint.directions, weave.ring_ratio, detail.cells, extra)
     curves = site_curves(lattice.edges, weave, detail.samples)
     return without_corners(lattice, corners_in_the_way(lattice, curves)), curves
-
-
-def _edges(kit: Kit) -> list[float]:
-    return [2 * math.pi * n / kit.valence for n in range(kit.valence)]

@@ -10,21 +10,30 @@ from functools import cache
 from importlib import resources
 from typing import Any
 
-from scadgen.kit.model import Kit, Way
+from scadgen.kit.model import Joint, Kit, Way
 from scadgen.kit.store import read_way
 
 __all__ = ["key_of", "known_ways"]
 
 
-def known_ways(kit: Kit) -> tuple[Way, ...]:
-    """The known ways out of a joint like the kit's; none if it is not built in."""
-    return tuple(read_way(entry) for entry in _file().get(key_of(kit), ()))
+def known_ways(kit: Kit, joint: Joint) -> tuple[Way, ...]:
+    """The known ways out of a joint like this one, which may do.
+
+    For one that is not built in they are those of the two that its weave is between.
+    """
+    built_in = _file().get(key_of(kit, joint))
+    if built_in is not None:
+        return tuple(map(read_way, built_in))
+    near = [
+        key for n in (4, 6) for key in _file() if key.startswith(f"{n} {kit.key} {kit.detail} ")
+    ]
+    return tuple(read_way(entry) for key in near for entry in _file()[key])
 
 
-def key_of(kit: Kit) -> str:
+def key_of(kit: Kit, joint: Joint) -> str:
     """What tells a joint from all others."""
-    shape = [f"{value:g}" for name, value in kit.weave.items() if name != "name"]
-    return " ".join([str(kit.valence), kit.key, kit.detail, *shape])
+    shape = [f"{value:g}" for name, value in joint.weave.items() if name != "name"]
+    return " ".join([str(len(joint.turns)), kit.key, kit.detail, *shape])
 
 
 @cache

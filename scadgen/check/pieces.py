@@ -1,40 +1,66 @@
-"""The pieces of a kit's joint as meshes where they stand, for the proofs."""
+"""The pieces of a kind of joint as meshes where they stand, for the proofs."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
-from scadgen.check.geometry import placed
-from scadgen.frame.placement import Placement
+from scadgen.check.geometry import placed, standing
+from scadgen.element.ends import flat_end, key_end, part
+from scadgen.element.squares import Key
 from scadgen.interlock.contacts import Mesh
-from scadgen.kit.model import Kit
+from scadgen.kit.model import Joint, Kit
+from scadgen.solid.affine import AffineSolid
 
-__all__ = ["key_tube", "pieces", "tubes"]
+__all__ = ["key_tubes", "pieces", "tubes"]
 
 
-def pieces(kit: Kit, values: Mapping[str, float]) -> list[Mesh]:
-    """The mesh of each piece of the joint; a fixed peg is the end of its tube."""
+def pieces(kit: Kit, joint: Joint, values: Mapping[str, float]) -> list[Mesh]:
+    """The mesh of each piece of a joint; a fixed peg is the end of its tube."""
+    fixed = _tube(kit, joint, socket=True)
     return [
-        key_tube(kit, values)
-        if place.part == "peg" and kit.key == "fixed"
+        standing(fixed, place, values)
+        if place.role == "peg" and kit.key == "fixed"
         else placed(kit, place, values)
-        for place in kit.joint
+        for place in joint.pieces
     ]
 
 
-def key_tube(kit: Kit, values: Mapping[str, float]) -> Mesh:
-    """The tube on the key's edge."""
-    return placed(kit, _along("two_sided", 0.0), values)
-
-
-def tubes(kit: Kit, values: Mapping[str, float]) -> dict[int, Mesh]:
-    """The tube of each connector, by its number in the joint."""
+def key_tubes(kit: Kit, joint: Joint, values: Mapping[str, float]) -> dict[int, Mesh]:
+    """The tube on each key's edge that has one, by the number of the key's half A."""
+    tube = _tube(kit, joint, socket=True)
     return {
-        number: placed(kit, _along("tube", place.turn), values)
-        for number, place in enumerate(kit.joint)
-        if place.part == "connector"
+        number: standing(tube, replace(place, flip=False), values)
+        for number, place in enumerate(joint.pieces)
+        if place.role == "half_a" and not _is_cap(joint, place.turn)
     }
 
 
-def _along(part: str, turn: float) -> Placement:
-    return Placement(part, (0.0, 0.0), turn, flip=False, role="")
+def tubes(kit: Kit, joint: Joint, values: Mapping[str, float]) -> dict[int, Mesh]:
+    """The tube of each connector that has one, by its number in the joint."""
+    tube = _tube(kit, joint, socket=False)
+    return {
+        number: standing(tube, place, values)
+        for number, place in enumerate(joint.pieces)
+        if place.role == "cap" and not _is_cap(joint, place.turn)
+    }
+
+
+def _is_cap(joint: Joint, turn: float) -> bool:
+    off = [abs((turn - other + 180) % 360 - 180) for other in joint.turns]
+    return off.index(min(off)) in joint.caps
+
+
+def _tube(kit: Kit, joint: Joint, *, socket: bool) -> AffineSolid:
+    """A tube as long as an edge, with key ends or with flat ones."""
+    figures = joint.figures
+    key = Key(
+        kit.key,
+        "bore" in kit.values,
+        figures["tube_start_sides"],
+        figures["pad_sides"],
+        figures["window_half_width_sides"],
+        figures["window_depth_sides"],
+    )
+    end = key_end(key) if socket else flat_end(key, {"side": key.tube_start, "clearance": 1.0})
+    return part("tube", end, end, {"edge_length": 1.0})

@@ -1,8 +1,8 @@
-"""What is proved of a kit's joint: it locks, and it can be put together."""
+"""What is proved of a kit's joints: they lock, and they can be put together."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from scadgen.check.known import known_ways
@@ -10,7 +10,7 @@ from scadgen.check.locking import joint_locks
 from scadgen.check.result import Result
 from scadgen.check.ways import come_apart
 from scadgen.errors import GeometryError
-from scadgen.kit.model import Kit, Way
+from scadgen.kit.model import Joint, Kit, Way
 
 __all__ = ["Proof", "proofs", "proved"]
 
@@ -23,24 +23,31 @@ class Proof:
     way: Way | None = None
 
 
-def proofs(kit: Kit, say: Callable[[str], None] = lambda _: None) -> Iterator[Proof]:
-    """Prove what a kit promises, one result after the other.
+def proofs(
+    kit: Kit, joint: Joint, known: Iterable[Way] = (), say: Callable[[str], None] = lambda _: None
+) -> Iterator[Proof]:
+    """Prove what a kit promises of one of its joints, one result after the other.
 
     Parameters
     ----------
     kit
-        The kit; ways that it carries are proved, and searched for only where it has none.
+        The kit.
+    joint
+        The joint; ways that it carries are proved, and searched for only where it has none.
+    known
+        More ways that may do: those of joints like it.
     say
         Told what takes long.
     """
-    for result in joint_locks(kit):
+    for result in joint_locks(kit, joint):
         yield Proof(result)
-    for result, way in come_apart(kit, (*kit.ways, *known_ways(kit)), say=say):
+    ways = (*joint.ways, *known_ways(kit, joint), *known)
+    for result, way in come_apart(kit, joint, ways, say=say):
         yield Proof(result, way)
 
 
 def proved(kit: Kit, say: Callable[[str], None] = lambda _: None) -> Kit:
-    """The kit with all that is proved of it.
+    """The kit with all that is proved of its joints.
 
     Parameters
     ----------
@@ -52,20 +59,30 @@ def proved(kit: Kit, say: Callable[[str], None] = lambda _: None) -> Kit:
     Raises
     ------
     GeometryError
-        It does not lock, or no way is found on which it comes apart.
+        One does not lock, or no way is found on which it comes apart.
     """
+    done: list[Joint] = []
+    for joint in kit.joints:
+        known = [way for other in done for way in other.ways]
+        done.append(_proved(kit, joint, known, say))
+    return replace(kit, joints=tuple(done))
+
+
+def _proved(kit: Kit, joint: Joint, known: Iterable[Way], say: Callable[[str], None]) -> Joint:
+    """A joint with all that is proved of it."""
     verdicts, ways = {}, []
-    for proof in proofs(kit, say):
+    of = f"{joint.title}: " if joint.name else ""
+    for proof in proofs(kit, joint, known, lambda what: say(of + what)):
         result = proof.result
         if not result.good:
             msg = (
-                f"weave {kit.weave['name']}: {result.check}: {result.figure}, must be "
+                f"{of}weave {joint.weave['name']}: {result.check}: {result.figure}, must be "
                 f"{result.bound}; another weave or more clearance helps, or --unchecked makes "
                 "the kit all the same"
             )
             raise GeometryError(msg)
-        say(result.check)
+        say(of + result.check)
         verdicts[result.check] = result.figure
         if proof.way:
             ways.append(proof.way)
-    return replace(kit, verdicts=verdicts, ways=tuple(ways))
+    return replace(joint, verdicts=verdicts, ways=tuple(ways))

@@ -9,15 +9,13 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from scadgen.check.result import Result
+from scadgen.emit.scad_parameters import views
 from scadgen.kit.model import Kit
 from scadgen.solid.mesh import volume
 from scadgen.tools.openscad import render
 from scadgen.tools.stl import check_stl, read_stl
 
-__all__ = ["VIEWS", "part_renders", "view_renders"]
-
-#: What a kit's file draws beside single parts.
-VIEWS = ("plate", "joint", "joint_exploded", "frame", "coupon")
+__all__ = ["part_renders", "view_renders"]
 
 #: A bed that the largest part of the largest kit fits on, in mm.
 _BED = (5000, 5000)
@@ -43,9 +41,9 @@ def part_renders(kit: Kit, scad: Path, folder: Path, timeout: float) -> Iterator
         yield Result(check, bool(good), figure, f"{_VERTEX:g} mm, {_VOLUME:g}")
 
 
-def view_renders(scad: Path, folder: Path, timeout: float) -> Iterator[Result]:
+def view_renders(kit: Kit, scad: Path, folder: Path, timeout: float) -> Iterator[Result]:
     """Whether OpenSCAD draws plates and assemblies without any CSG."""
-    for name in VIEWS:
+    for name in views(kit):
         output = folder / f"{name}.stl"
         check = f"OpenSCAD draws {name}"
         done = render(scad, output, {"part": name, "bed": _BED}, timeout=timeout)

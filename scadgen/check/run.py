@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
 from scadgen.check import files, geometry, rendered
 from scadgen.check.proof import proofs
 from scadgen.check.result import Result
-from scadgen.kit.model import Kit
+from scadgen.kit.model import Joint, Kit
 
 __all__ = ["checks"]
 
@@ -41,11 +42,11 @@ def checks(
         "files": files.unchanged(kit, source),
         "what the parameters make": (geometry.same(made) for made in (kit,)),
         "solids": geometry.closed(kit),
-        "partition": geometry.partition(kit),
-        "footprint": (geometry.footprint(made) for made in (kit,)),
-        "gaps": geometry.gaps(kit),
-        "sampling": geometry.sampling(kit),
-        "proofs": (proof.result for proof in proofs(kit, say)),
+        **{
+            f"{what}{f' of {joint.title}' if joint.name else ''}": _named(joint, found)
+            for joint in kit.joints
+            for what, found in _of_joint(kit, joint, say).items()
+        },
         "drawings": _drawings(kit, source / f"{kit.frame}.scad", timeout),
     }
 
@@ -55,5 +56,23 @@ def _drawings(kit: Kit, scad: Path, timeout: float) -> Iterator[Result]:
         folder = Path(name)
         yield from chain(
             rendered.part_renders(kit, scad, folder, timeout),
-            rendered.view_renders(scad, folder, timeout),
+            rendered.view_renders(kit, scad, folder, timeout),
         )
+
+
+def _of_joint(kit: Kit, joint: Joint, say: Callable[[str], None]) -> dict[str, Iterable[Result]]:
+    """Prepare the checks of a kind of joint."""
+    return {
+        "partition": geometry.partition(kit, joint),
+        "footprint": (geometry.footprint(kit, one) for one in (joint,)),
+        "gaps": geometry.gaps(kit, joint),
+        "sampling": geometry.sampling(kit, joint),
+        "proofs": (proof.result for proof in proofs(kit, joint, say=say)),
+    }
+
+
+def _named(joint: Joint, found: Iterable[Result]) -> Iterator[Result]:
+    """Results that say which joint they are of, where there are several."""
+    for result in found:
+        named = f"{joint.title}: {result.check}" if joint.name else result.check
+        yield replace(result, check=named)

@@ -1,8 +1,9 @@
 """Whether a joint can be put together: the ways on which its pieces come apart, backwards.
 
-1. The peg comes out: a fixed one with its tube, a loose one into the ring's hole.
-2. Half A, then half B; the tubes of all connectors stay, and that of a loose peg.
-3. The connectors, with their tubes, until one is left.
+1. The pegs come out: a fixed one with its tube, a loose one into the ring's hole.
+2. The halves, half A of a lone key first; the tubes of all connectors stay, and those of loose
+   pegs.
+3. The connectors, with their tubes, each alone, until one is left.
 
 A way that is known is proved again for the kit's own solids; only where there is none is
 one searched for.
@@ -11,24 +12,25 @@ one searched for.
 from __future__ import annotations
 
 import itertools
+import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from scadgen.check.pieces import key_tube, pieces, tubes
+from scadgen.check.pieces import key_tubes, pieces, tubes
 from scadgen.check.result import Result
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.escape import escape
 from scadgen.interlock.path import Path, narrowest
 from scadgen.interlock.widen import widened
-from scadgen.kit.model import Kit, Way
+from scadgen.kit.model import Joint, Kit, Way
 from scadgen.kit.store import WAY_DECIMALS
 
 __all__ = ["PATIENCE", "come_apart"]
 
-#: Seconds after which a search is given up.
-PATIENCE = 60.0
+#: Seconds after which the search for what comes out next is given up.
+PATIENCE = 180.0
 
 #: Seeds of the searches: one that gives up too soon mostly does not with another.
 _SEEDS = (1, 2, 3)
@@ -38,6 +40,9 @@ _LEAST, _LOOK = 0.05, 2.0
 
 #: Gap, as a share of the clearance, of a way that cannot be much wider.
 _ROOMY = 0.9
+
+#: Words for several pieces.
+_MANY = {"peg": "pegs", "half": "halves"}
 
 #: What every way has to be.
 _BOUND = "touching nothing"
@@ -61,22 +66,26 @@ class _Stage:
 
 def come_apart(
     kit: Kit,
+    joint: Joint,
     known: Iterable[Way] = (),
     *,
     seconds: float = PATIENCE,
     roomy: bool = False,
     say: Callable[[str], None] = lambda _: None,
 ) -> Iterator[tuple[Result, Way | None]]:
-    """Take a kit's joint apart at its own clearances.
+    """Take a kind of joint apart at its kit's own clearances.
 
     Parameters
     ----------
     kit
         The kit.
+    joint
+        One of its joints.
     known
-        Ways that may do, of this kit or of one like it.
+        Ways that may do, of this joint or of one like it.
     seconds
-        Time for each search; some are made before a stage is given up.
+        Time after which no other try begins to find what comes out next.  All searches for it
+        share that time: one for each piece that may be next and each of some seeds.
     roomy
         Whether to widen each way that is narrow, which may take longer than to find it: it
         then holds for smaller clearances too.
@@ -93,54 +102,56 @@ def come_apart(
     InvariantError
         If a part is not a solid.
     """
-    joint = _Joint(kit)
-    known, present = tuple(known), set(range(len(kit.joint)))
-    while stage := _next(kit, present):
-        found = joint.known(stage, known, present)
+    bodies = _Bodies(kit, joint)
+    known, present = tuple(known), set(range(len(joint.pieces)))
+    while stage := _next(joint, present):
+        found: tuple[Way, float] | str | None = bodies.known(stage, known, present)
         if found is None:
             say(f"searching how {stage.name}")
-            found = joint.searched(stage, present, seconds)
-        if found is None:
-            yield Result(stage.name, good=False, figure="no way found", bound=_BOUND), None
+            found = bodies.searched(stage, present, seconds)
+        if isinstance(found, str):
+            yield Result(stage.name, good=False, figure=found, bound=_BOUND), None
             return
-        if roomy and found[1] < _ROOMY * joint.clearance:
-            found = joint.widened(found[0], present) or found
+        if roomy and found[1] < _ROOMY * bodies.clearance:
+            found = bodies.widened(found[0], present) or found
         way, gap = found
         figure = f"{gap:.3f} mm from all others"
         yield Result(stage.name, good=True, figure=figure, bound=_BOUND), way
         present -= set(way.moving)
 
 
-def _next(kit: Kit, present: set[int]) -> _Stage | None:
+def _next(joint: Joint, present: set[int]) -> _Stage | None:
     """The stage at which these pieces are left."""
-    parts = {n: kit.joint[n].part for n in sorted(present)}
-    for part, name in (("peg", "the peg comes out"), ("half", "half {} comes out")):
-        left = [n for n, p in parts.items() if p == part]
+    kinds = {n: joint.pieces[n].role.partition("_")[0] for n in sorted(present)}
+    for kind in ("peg", "half"):
+        left = [n for n, k in kinds.items() if k == kind]
+        if left and len(joint.keys) == 1:
+            name = f"half {'AB'[len(left) == 1]}" if kind == "half" else "the peg"
+            return _Stage(f"{name} comes out", [(left[0],)])
         if left:
-            return _Stage(name.format("AB"[len(left) == 1]), [(left[0],)])
-    left = list(parts)
+            name = {1: f"the last {kind} comes"}.get(
+                len(left), f"one of {len(left)} {_MANY[kind]} comes"
+            )
+            return _Stage(f"{name} out", [(n,) for n in left])
+    left = list(kinds)
     if len(left) < 2:
         return None
-    name = f"{len(left)} connectors come apart"
-    sizes = range(1, len(left) // 2 + 1)
-    runs = [left[n : n + size] for size in sizes for n in range(len(left) - size + 1)]
-    return _Stage(name, [tuple(run) for run in runs])
+    return _Stage(f"{len(left)} connectors come apart", [(n,) for n in left])
 
 
-class _Joint:
+class _Bodies:
     """A joint's bodies, each piece with its tube, where they stand."""
 
-    def __init__(self, kit: Kit) -> None:
+    def __init__(self, kit: Kit, joint: Joint) -> None:
         values = kit.values
         self.side, self.clearance = values["side"], values["clearance"]
-        self.meshes = pieces(kit, values)
-        self.tubes = tubes(kit, values)
-        self.halves = {n for n, place in enumerate(kit.joint) if place.part == "half"}
-        self.key_tube = [key_tube(kit, values)] if kit.key == "loose" else []
+        self.meshes = pieces(kit, joint, values)
+        self.tubes = tubes(kit, joint, values)
+        self.key_tubes = key_tubes(kit, joint, values) if kit.key == "loose" else {}
 
     def bodies(self, moving: tuple[int, ...], present: set[int]) -> tuple[list[Mesh], list[Mesh]]:
         """What moves, and what stays."""
-        stay = self.key_tube if self.halves & present else []
+        stay = [tube for n, tube in self.key_tubes.items() if {n, n + 1} & present]
         return self._with_tubes(moving), [*self._with_tubes(present - set(moving)), *stay]
 
     def gap(self, way: Way, present: set[int]) -> float:
@@ -176,18 +187,28 @@ class _Joint:
         gap = self.gap(found, present)
         return (found, gap) if gap > 0 else None
 
-    def searched(
-        self, stage: _Stage, present: set[int], seconds: float
-    ) -> tuple[Way, float] | None:
-        """A way for this stage, if one is found, and its smallest gap."""
-        for seed, choice in itertools.product(_SEEDS, stage.choices):
-            found = escape(*self.bodies(choice, present), seed=seed, seconds=seconds)
+    def searched(self, stage: _Stage, present: set[int], seconds: float) -> tuple[Way, float] | str:
+        """A way for this stage and its smallest gap, or what was tried in vain."""
+        tries, late, end = 0, False, time.monotonic() + seconds
+        searches = list(itertools.product(_SEEDS, stage.choices))
+        for number, (seed, choice) in enumerate(searches):
+            left = end - time.monotonic()
+            if left <= 0:
+                late = True
+                break
+            # A piece that is hard to take out leaves time for those after it.
+            share = left / (len(searches) - number)
+            found = escape(*self.bodies(choice, present), seed=seed, seconds=share)
             if isinstance(found, Path):
                 way = Way(stage.name, choice, _rounded(found.scaled(1 / self.side)))
                 gap = self.gap(way, present)
                 if gap > 0:
                     return way, gap
-        return None
+                tries += 1
+            else:
+                tries += found.tries
+                late |= not found.in_time
+        return f"none found in {tries} tries{', time was up' if late else ''}"
 
     def _with_tubes(self, numbers: Iterable[int]) -> list[Mesh]:
         chosen = sorted(numbers)

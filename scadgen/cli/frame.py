@@ -39,7 +39,7 @@ _FILE = click.Path(path_type=Path)
 @click.option(
     "--snap-length", type=float, metavar="MM", help="Change lengths by this much for fewer kinds."
 )
-@source_options
+@source_options()
 @click.option("-o", "--output", type=_FILE, help="Write the frame as JSON.")
 @click.option("--picture", type=_FILE, metavar="FILE", help="Draw it as SVG, in colours by kind.")
 @click.option("--json", "as_json", is_flag=True, help="Say it as JSON.")
@@ -136,11 +136,13 @@ def _check_range(what: str, value: float | None, unit: str, limits: tuple[float,
 
 def _check_files(output: Path | None, picture: Path | None) -> None:
     """Refuse, before any work, what could not be written or not be read again."""
+    from scadgen.emit.mesh import check_writable
+
     for path, ending in ((output, ".json"), (picture, ".svg")):
-        if path and path.is_dir():
-            msg = f"{str(path)!r}: is a folder; name a file"
-            raise InputError(msg)
-        if path and path.suffix.lower() != ending:
+        if path is None:
+            continue
+        check_writable(path)
+        if path.suffix.lower() != ending:
             msg = f"{str(path)!r}: must end in {ending}"
             raise InputError(msg)
 

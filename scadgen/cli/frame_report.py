@@ -74,7 +74,7 @@ def _snap(snapped: Snapped) -> dict[str, Any]:
 def _joints(build: Build) -> list[dict[str, Any]]:
     import numpy as np
 
-    from scadgen.emit.frame_picture import joint_name
+    from scadgen.frame.sameness import joint_name
 
     kinds = zip(build.same.joints, build.least, build.rings, strict=True)
     return [
@@ -95,7 +95,7 @@ def _joints(build: Build) -> list[dict[str, Any]]:
 
 
 def _edges(build: Build, side: float | None) -> list[dict[str, Any]]:
-    from scadgen.emit.frame_picture import joint_name
+    from scadgen.frame.sameness import joint_name
 
     missing = build.missing(side or 0.0)
     return [

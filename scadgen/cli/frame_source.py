@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -57,17 +57,31 @@ _READING: dict[str, tuple[type, str | None, str, tuple[str, ...] | None]] = {
 }
 
 
-def source_options(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command the options of named frames and of files."""
-    for name, (kind, metavar, what, _) in reversed(_READING.items()):
-        text = f"Files: {what}"
-        form: dict[str, Any] = {"type": kind, "metavar": metavar}
-        given = {"is_flag": True} if kind is bool else form
-        function = click.option(option(name), name, help=text, **given)(function)
-    for name, (kind, metavar, what) in reversed(_FAMILY.items()):
-        text = f"Named frames: {what}."
-        function = click.option(option(name), name, type=kind, metavar=metavar, help=text)(function)
-    return function
+def source_options(
+    without: Collection[str] = (),
+) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Give a command the options of named frames and of files.
+
+    Parameters
+    ----------
+    without
+        Names of options that the command has already.
+    """
+
+    def add(function: Callable[..., Any]) -> Callable[..., Any]:
+        for name, (kind, metavar, what, _) in reversed(_READING.items()):
+            text = f"Files: {what}"
+            form: dict[str, Any] = {"type": kind, "metavar": metavar}
+            given = {"is_flag": True} if kind is bool else form
+            function = click.option(option(name), name, help=text, **given)(function)
+        for name, (kind, metavar, what) in reversed(_FAMILY.items()):
+            if name not in without:
+                text = f"Named frames: {what}."
+                add_one = click.option(option(name), name, type=kind, metavar=metavar, help=text)
+                function = add_one(function)
+        return function
+
+    return add
 
 
 def load_frame(name: str, options: Mapping[str, Any]) -> Read:

@@ -17,9 +17,6 @@ if TYPE_CHECKING:
 
 __all__ = ["interlock"]
 
-#: Residual of a certificate that counts as balanced.
-_BALANCED = 1e-8
-
 _FILE = click.Path(path_type=Path)
 
 
@@ -98,15 +95,15 @@ def interlock(
 
 def _check_pictures(files: tuple[Path, ...], gif: Path | None, png: Path | None) -> None:
     """Refuse pictures that would not be what their names say, or in the way of a part."""
+    from scadgen.emit.mesh import check_writable
+
     for option, path, ending in (("--gif", gif, ".gif"), ("--png", png, ".png")):
         if path is None:
             continue
         if path.suffix.lower() != ending or path.resolve() in {file.resolve() for file in files}:
             msg = f"{option} {str(path)!r}: must be a file of its own that ends in {ending}"
             raise InputError(msg)
-        if path.is_dir() or not path.resolve().parent.is_dir():
-            msg = f"{option} {str(path)!r}: must be a file in a folder that exists"
-            raise InputError(msg)
+        check_writable(path)
 
 
 def _held(names: list[str], meshes: list[Mesh], hold: str | None) -> list[int]:
@@ -165,14 +162,14 @@ def _judge(
 ) -> tuple[Certificate | Motion, dict[str, float] | None]:
     """The verdict, and the facts of a certificate once it is checked."""
     from scadgen.interlock.assembly import make_assembly
-    from scadgen.interlock.certificate import check_certificate
+    from scadgen.interlock.certificate import BALANCED, check_certificate
     from scadgen.interlock.verdict import Motion, verdict
 
     answer = verdict(make_assembly(meshes, contacts, held))
     if isinstance(answer, Motion):
         return answer, None
     residual = check_certificate(contacts, held, len(meshes), answer)
-    if not residual < _BALANCED:
+    if not residual < BALANCED:
         msg = f"a certificate balances every part: residual {residual:.3g}"
         raise InvariantError(msg)
     return answer, {

@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 import json
+import re
 import shlex
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from scadgen.cli.console import progress
+from scadgen.cli.frame_source import load_frame, source_options
 from scadgen.errors import InputError
 
+if TYPE_CHECKING:
+    from scadgen.kit.build import Request
+    from scadgen.kit.model import Kit
+
 __all__ = ["kit"]
+
+#: Options of named frames that say how large one is, in mm.
+_SIZES = {"width", "height", "bay_length", "radius", "outline"}
 
 #: Shares of the time after which a joint is computed, and proved.
 _COMPUTED, _PROVED = 0.2, 0.9
@@ -48,23 +58,27 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
 
 
 @click.command(short_help="Make a kit: everything to print a frame.")
-@click.argument("frame", metavar="hexagonal|square")
+@click.argument("frame", metavar="FRAME")
 @click.option(
     "-o",
     "--output",
     type=click.Path(path_type=Path),
     help="Folder for the kit; one that is there is replaced.  [default: the frame's name]",
 )
-@click.option("--rows", type=int, default=2, show_default=True, help="Cells of the frame up.")
-@click.option(
-    "--columns", type=int, default=2, show_default=True, help="Cells of the frame across."
-)
+@click.option("--rows", type=int, help="Cells of the frame up.  [default: 2; others 3]")
+@click.option("--columns", type=int, help="Cells of the frame across.  [default: 2; others 3]")
 @click.option(
     "--key",
-    default="fixed",
-    show_default=True,
     metavar="fixed|loose",
-    help="Pegs that are part of the tubes, or pegs put in from the ring's hole.",
+    help="Pegs that are part of the tubes, or pegs put in from the ring's hole.  "
+    "[default: fixed; other frames have loose ones only]",
+)
+@click.option(
+    "--rim",
+    default="caps",
+    show_default=True,
+    metavar="caps|open",
+    help="Other frames: what joints at the rim have where they lack edges of inner ones.",
 )
 @click.option(
     "--detail",
@@ -77,66 +91,116 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
     "--weave",
     metavar="NAME|FILE",
     help="A built-in weave, or a JSON file with ring_ratio, span, amplitude, bend and periods."
-    "  [default: the one for the joint's edges and the key]",
+    "  [default: the one for the joint's edges and the key; other frames: by each joint's angles]",
 )
 @_lengths
+@source_options(without=("rows", "columns", "edge_length"))
 @click.option(
-    "--unchecked", is_flag=True, help="Make the kit even if its joint is not proved to lock."
+    "--unchecked", is_flag=True, help="Make the kit even if its joints are not proved to lock."
 )
 @click.option("--json", "as_json", is_flag=True, help="Say what was made as JSON.")
-def kit(  # noqa: PLR0913, PLR0917  one argument an option
+def kit(
     frame: str,
     output: Path | None,
-    rows: int,
-    columns: int,
-    key: str,
-    detail: str,
-    weave: str | None,
     unchecked: bool,  # noqa: FBT001  click passes flags so
     as_json: bool,  # noqa: FBT001
-    **lengths: float | None,
+    **options: Any,  # noqa: ANN401  of the kit, its live parameters, and the frame
 ) -> None:
-    """Make a kit for a hexagonal or square frame.
+    """Make a kit for a frame.
+
+    FRAME is hexagonal or square, another name that scadgen frame --list shows, or a file:
+    JSON, SVG, DXF, OBJ or OFF.  Hexagonal and square frames have rows and columns that can be
+    set later; all others, and these with a radius or an outline, are as they are.
 
     Writes kit.json, an OpenSCAD file with sliders, a Makefile, a README and a preview, all or
-    nothing, once it is proved that the joint locks and comes apart without its peg.  Lengths
+    nothing, once it is proved that every joint locks and comes apart without its pegs.  Lengths
     are in mm.
 
     \b
     scadgen kit hexagonal -o out/hexagonal
     scadgen kit square --rows 3 --columns 4 --side 8 --clearance 0.15 -o shelf
+    scadgen kit 3.4.6.4 --radius 300 --detail draft -o tiling
+    scadgen kit drawing.svg --side 6
     """  # noqa: D301  click wants the character
     from scadgen.check.proof import proved
     from scadgen.emit.folder import check_folder, write_kit
-    from scadgen.kit.build import Request, build
+    from scadgen.kit.build import build
     from scadgen.kit.store import summary
 
-    values = {name: value for name, value in lengths.items() if value is not None}
-    chosen = _weave(weave) if weave is not None else None
-    folder = output or Path(frame)
-    request = Request(frame, key, rows, columns, detail, chosen, values, _command())
+    request, notes = _request(frame, options)
+    folder = output or Path(request.frame)
     check_folder(folder)
     with progress(f"making {folder}") as bar:
-        bar.reach(0.0, "computing the joint")
+        bar.reach(0.0, "computing the joints")
         made = build(request)
         done = _COMPUTED
         if not unchecked:
-            step, done = bar.steps(_COMPUTED, _PROVED, _PROOFS), _PROVED
-            made = proved(made, lambda what: step(f"proving the joint: {what}"))
+            about = _PROOFS * len(made.joints)
+            step, done = bar.steps(_COMPUTED, _PROVED, about), _PROVED
+            made = proved(made, lambda what: step(f"proving {what}"))
         write = bar.steps(done, 1.0, _FILES)
         write_kit(made, folder, progress=lambda file: write(f"writing {file}"))
     if as_json:
-        click.echo(json.dumps({"folder": str(folder), **summary(made)}, indent=1))
-        return
+        said = {"folder": str(folder), "notes": notes, **summary(made)}
+        click.echo(json.dumps(said, indent=1))
+    else:
+        _say(made, folder, notes)
+
+
+def _say(made: Kit, folder: Path, notes: Sequence[str]) -> None:
+    """Say what was made, and what to do with it."""
+    from scadgen.kit.store import summary
+
+    for note in notes:
+        click.echo(f"note: {note}")
     bill = summary(made)["bill"]
-    count = sum(bill.values())
-    click.echo(
-        f"{click.format_filename(folder)}: {count} pieces to print for {rows} x {columns} cells"
+    size = (
+        f"{made.rows} x {made.columns} cells"
+        if made.graph is None
+        else f"{len(made.graph.edges)} edges and {len(made.graph.vertices)} joints"
     )
+    click.echo(f"{click.format_filename(folder)}: {sum(bill.values())} pieces to print for {size}")
     for part, number in bill.items():
         click.echo(f"  {number:4d} {part}")
     place = shlex.quote(click.format_filename(folder))
     click.echo(f"next: scadgen render {place}, or make -C {place} -j2")
+
+
+def _request(frame: str, options: dict[str, Any]) -> tuple[Request, tuple[str, ...]]:
+    """What kit to make, and what was repaired of the frame it is for."""
+    from scadgen.kit.build import VALENCE, Request
+
+    lengths = {name for name, *_ in _LENGTHS}
+    own = {"rows", "columns", "key", "rim", "detail", "weave", *lengths}
+    values = {n: v for n, v in options.items() if n in lengths and v is not None}
+    weave = _weave(options["weave"]) if options["weave"] is not None else None
+    of_frame = {n: v for n, v in options.items() if n not in own and v not in (None, False)}
+    detail, rim, command = options["detail"], options["rim"], _command()
+    rows, columns = options["rows"], options["columns"]
+    if frame in VALENCE and not of_frame and rim == "caps":
+        rows, columns = (2 if count is None else count for count in (rows, columns))
+        key = options["key"] or "fixed"
+        return Request(frame, key, rows, columns, detail, weave, values, command), ()
+    from scadgen.frame.catalogue import ALIASES, NAMES
+
+    cells = {"rows": rows, "columns": columns}
+    read = load_frame(frame, of_frame | {n: v for n, v in cells.items() if v is not None})
+    named = frame in NAMES or frame in ALIASES
+    request = Request(
+        re.sub(r"[^A-Za-z0-9.-]+", "_", frame if named else Path(frame).stem).strip("._-")
+        or "frame",
+        options["key"] or "loose",
+        0,
+        0,
+        detail,
+        weave,
+        values,
+        command,
+        read.frame,
+        rim,
+        resizable=named and not of_frame.keys() & _SIZES,
+    )
+    return request, read.notes
 
 
 def _weave(name: str) -> Any:  # noqa: ANN401  imported late: the import takes a while
@@ -166,5 +230,7 @@ def _command() -> str:
         given = context.get_parameter_source(name) != click.core.ParameterSource.DEFAULT
         if given and name not in ("frame", "output", "as_json"):
             value = context.params[name]
-            words += [parameter.opts[-1], repr(value) if isinstance(value, float) else str(value)]
+            words.append(parameter.opts[-1])
+            if value is not True:  # a flag is its option alone
+                words.append(repr(value) if isinstance(value, float) else str(value))
     return shlex.join(words)

@@ -56,6 +56,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
         _fail(str(error))
     except BrokenPipeError:
         sys.exit(_INTERRUPTED)
+    except OSError as error:
+        _fail(f"{error.filename or 'a file'}: {error.strerror or error}")
     except (click.Abort, KeyboardInterrupt):
         click.echo("scadgen: interrupted", err=True)
         sys.exit(_INTERRUPTED)

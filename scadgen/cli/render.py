@@ -34,8 +34,8 @@ def render(
 
     Every log is read and every STL read back: a drawing is good only if it is watertight.
     """
-    from scadgen.check.rendered import VIEWS
     from scadgen.cli.export import settings
+    from scadgen.emit.scad_parameters import views
     from scadgen.kit.store import load
     from scadgen.tools import openscad
     from scadgen.tools.stl import check_stl
@@ -44,7 +44,7 @@ def render(
     if kind not in ("stl", "3mf", "png"):
         msg = f"--format {kind}: must be stl, 3mf or png"
         raise InputError(msg)
-    known = (*kit.parts, *VIEWS)
+    known = (*kit.parts, *views(kit))
     for part in parts:
         if part not in known:
             msg = f"part = {part!r}: must be one of {', '.join(known)}"

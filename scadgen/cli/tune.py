@@ -71,6 +71,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     scadgen tune --valence 5 --budget 1200 --record five.jsonl -o five.json
     scadgen kit hexagonal --weave tight.json
     """  # noqa: D301  click wants the character
+    from scadgen.emit.mesh import check_writable, write_atomic
     from scadgen.joint.weave import Weave
     from scadgen.tune.judge import Wish
     from scadgen.tune.record import Record
@@ -83,9 +84,11 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     if not budget > 0:
         msg = f"budget = {budget:g} s: must be above 0"
         raise InputError(msg)
-    if output and output.is_dir():
-        msg = f"{str(output)!r}: is a folder; name a file"
+    if seed < 0:
+        msg = f"seed = {seed}: must be at least 0"
         raise InputError(msg)
+    if output:
+        check_writable(output)
     wish = Wish(valence, key, arm)
     search = Search(wish, seed, Record(record, wish, seed))
     with progress("tuning") as bar:
@@ -94,7 +97,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
             bar.say(_state(search))
     found = [(Weave(*shape, name=f"tuned-{valence}-{key}"), f) for shape, f in search.front]
     if output and found:
-        output.write_text(json.dumps(found[0][0].as_dict(), indent=1) + "\n", encoding="utf-8")
+        write_atomic(output, (json.dumps(found[0][0].as_dict(), indent=1) + "\n").encode())
     if as_json:
         rows = [{**w.as_dict(), "play": f.play, "arm": f.arm} for w, f in found]
         click.echo(json.dumps(rows, indent=1))

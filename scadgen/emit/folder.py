@@ -12,6 +12,7 @@ from pathlib import Path
 from scadgen.emit.macro import macro
 from scadgen.emit.makefile import makefile, stl_check
 from scadgen.emit.picture import assembly_picture, preview
+from scadgen.emit.placing import placing
 from scadgen.emit.readme import readme
 from scadgen.emit.scad import parameter_sets, scad
 from scadgen.errors import InputError
@@ -20,9 +21,9 @@ from scadgen.kit.store import FORMAT, dumps
 
 __all__ = ["check_folder", "files_of", "write_kit"]
 
-#: What a new kit makes stale: what the kit's Makefile and `scadgen render` write, and what an
-#: unchecked kit lacks.
-_STALE = {"stl", "3mf", "png", "plates", ".build", "assembly.png"}
+#: What a new kit makes stale: what the kit's Makefile and `scadgen render` write, and what not
+#: every kit has.
+_STALE = {"stl", "3mf", "png", "plates", ".build", "assembly.png", "placing.svg"}
 
 
 def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
@@ -33,11 +34,15 @@ def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
         f"{kit.frame}.json": parameter_sets,
         f"{kit.frame}.FCMacro": macro,
         "Makefile": makefile,
-        "check_stl.py": lambda _: stl_check(),
+        "check_stl.py": stl_check,
         "README.md": readme,
         "preview.png": preview,
     }
-    return {**files, "assembly.png": assembly_picture} if kit.ways else files
+    if kit.proved:
+        files["assembly.png"] = assembly_picture
+    if kit.graph is not None:
+        files["placing.svg"] = placing
+    return files
 
 
 def write_kit(kit: Kit, folder: Path, *, progress: Callable[[str], None] = lambda _: None) -> None:

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import colorsys
 import html
-import string
 from collections.abc import Callable, Iterator
 
 import numpy as np
 
 from scadgen.frame.graph import Frame
-from scadgen.frame.sameness import Sameness
+from scadgen.frame.sameness import Sameness, joint_name
 from scadgen.solid.affine import Floats
 
-__all__ = ["frame_svg", "joint_name"]
+__all__ = ["frame_svg"]
 
 _XML = "http://www.w3.org/2000/svg"
 
@@ -35,23 +34,6 @@ _GOLDEN = 0.381966
 
 #: Lightness and saturation of edges, which are pale, and of joints.
 _PALE, _STRONG = ((0.62, 0.55, 0.7), 0.5), ((0.42, 0.3, 0.52), 0.75)
-
-
-def joint_name(kind: int) -> str:
-    """Name of a kind of joint: A to Z, then AA, AB, ...
-
-    Parameters
-    ----------
-    kind
-        Its number, from 0.
-
-    Examples
-    --------
-    >>> joint_name(0), joint_name(25), joint_name(26)
-    ('A', 'Z', 'AA')
-    """
-    more, letter = divmod(kind, 26)
-    return (joint_name(more - 1) if more else "") + string.ascii_uppercase[letter]
 
 
 def frame_svg(frame: Frame, same: Sameness) -> str:

@@ -19,7 +19,7 @@ from scadgen.kit.store import dumps
 __all__ = ["macro", "workbench"]
 
 #: The modules that the macro is put together from, each after those it imports.
-_MODULES = ("faces", "layout", "affine", "brep", "shape", "names", "refusal", "macro")
+_MODULES = ("faces", "layout", "sense", "affine", "brep", "shape", "names", "refusal", "macro")
 
 #: What modules import from each other, and the macro has in one place.
 _PACKAGE = "freecad.scadgen"
@@ -69,6 +69,7 @@ def macro(kit: Kit) -> str:
             version=scadgen.__version__,
             frame=kit.frame,
             key=kit.key,
+            proved=kit.proved,
             imports=_merged(module.imports for module in modules),
             modules=[module.body for module in modules],
             lines=[repr(line) for line in dumps(kit).splitlines(keepends=True)],

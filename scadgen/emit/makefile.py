@@ -7,8 +7,9 @@ library alone.
 from __future__ import annotations
 
 from scadgen import __version__
+from scadgen.emit.scad_parameters import views
 from scadgen.emit.scad_text import comment
-from scadgen.emit.templates import environment
+from scadgen.emit.templates import UNCHECKED, environment
 from scadgen.kit.model import Kit
 
 __all__ = ["makefile", "stl_check"]
@@ -36,11 +37,24 @@ def makefile(kit: Kit) -> str:
             command=comment(kit.command),
             scad=f"{kit.frame}.scad",
             parts=list(kit.parts),
-            proved=bool(kit.verdicts),
+            pictures=[name for name in views(kit) if name not in ("plate", "coupon")],
+            proved=kit.proved,
         )
     )
 
 
-def stl_check() -> str:
-    """Give the text of ``check_stl.py``, which the Makefile runs on every mesh."""
-    return environment().get_template("check_stl.py").render()
+def stl_check(kit: Kit) -> str:
+    """Write ``check_stl.py``, which the Makefile runs on every mesh.
+
+    Parameters
+    ----------
+    kit
+        The kit; nothing but whether it is proved makes a difference.
+
+    Returns
+    -------
+    text
+        Python, ASCII.
+    """
+    text = environment().get_template("check_stl.py").render()
+    return text if kit.proved else f"# {UNCHECKED}\n{text}"

@@ -23,7 +23,8 @@ import os
 import secrets
 import struct
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -31,7 +32,7 @@ import numpy as np
 from scadgen.errors import InputError
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["FORMATS", "mesh_bytes", "write_atomic"]
+__all__ = ["FORMATS", "check_writable", "mesh_bytes", "write_atomic"]
 
 #: The earliest time that a zip file can state.
 _NO_TIME = (1980, 1, 1, 0, 0, 0)
@@ -230,6 +231,26 @@ def write_atomic(path: Path, data: bytes) -> None:
         If the file cannot be written.  Nothing is left behind, and a file that was
         there is as it was.
     """
+    with _writing(path) as (target, beside):
+        beside.write_bytes(data)
+        beside.replace(target)
+
+
+def check_writable(path: Path) -> None:
+    """Refuse, before long work, where `write_atomic` could put no file.
+
+    Raises
+    ------
+    InputError
+        The file could not be written.  Nothing is changed.
+    """
+    with _writing(path) as (_, beside):
+        beside.touch()
+
+
+@contextmanager
+def _writing(path: Path) -> Iterator[tuple[Path, Path]]:
+    """Where a file goes, and a name beside it for the time until it is whole."""
     target = Path(os.path.realpath(path))
     beside = target.parent / f".{secrets.token_hex(8)}.part"
     try:
@@ -237,8 +258,7 @@ def write_atomic(path: Path, data: bytes) -> None:
             msg = f"cannot write {str(path)!r}: it is not a file; name one that is, or a new one"
             raise InputError(msg)
         try:
-            beside.write_bytes(data)
-            beside.replace(target)
+            yield target, beside
         finally:
             beside.unlink(missing_ok=True)
     except OSError as error:

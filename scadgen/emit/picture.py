@@ -15,9 +15,9 @@ import numpy as np
 from scadgen.emit.preview import Colour, Shell, render
 from scadgen.emit.scad_parameters import limits
 from scadgen.errors import InputError
-from scadgen.frame.layout import LAYOUTS, bill
+from scadgen.frame.layout import bill
 from scadgen.frame.placement import Placement
-from scadgen.kit.model import Kit
+from scadgen.kit.model import Joint, Kit
 from scadgen.solid.affine import Floats
 
 __all__ = [
@@ -41,19 +41,6 @@ COLOURS: Mapping[str, Colour] = MappingProxyType(
     }
 )
 
-#: The role in which a part is shown alone.
-_ALONE: Mapping[str, str] = MappingProxyType(
-    {
-        "basic": "row",
-        "one_sided": "cross",
-        "two_sided": "cross",
-        "connector": "cap",
-        "half": "half_a",
-        "peg": "peg",
-        "tube": "row",
-    }
-)
-
 #: Where a joint is seen from: azimuth and elevation, in degrees.
 _VIEW = (-90.0, 48.0)
 #: Turn of a joint, and of a part alone, so that its edge is seen a little from its end.
@@ -64,6 +51,8 @@ _APART, _MOST_APART = 3.5, 100.0
 _SHOWN = 3.5
 #: Steps of an assembly in one row at most.
 _MOST_IN_ROW = 3
+#: Kinds of joints and edge elements that a picture shows at most: the first of many.
+_MOST_JOINTS, _MOST_ELEMENTS = 4, 8
 #: Room between two items, in sides.
 _GAP = 1.2
 
@@ -85,13 +74,16 @@ def preview(kit: Kit, *, size: tuple[int, int] = (1000, 750)) -> bytes:
     png
         The file's bytes; the same for the same kit.
     """
-    elements = bill(p for p in _frame(kit) if p.role in ("row", "cross"))
-    joints = [_joint(kit, 0.0), _joint(kit, _APART)]
-    return _draw(kit, [joints, [_alone(kit, name) for name in elements]], size)
+    elements = list(bill((p for p in kit.placements if p.role in ("row", "cross")), kit.parts))
+    joints = [
+        _joint(kit, one, apart) for one in kit.joints[:_MOST_JOINTS] for apart in (0.0, _APART)
+    ]
+    alone = [_alone(kit, name) for name in elements[:_MOST_ELEMENTS]]
+    return _draw(kit, [*_in_rows(joints, _MOST_IN_ROW), *_in_rows(alone, _MOST_IN_ROW)], size)
 
 
 def joint_picture(kit: Kit, explode: float = 0.0, *, size: tuple[int, int] = (1200, 900)) -> bytes:
-    """Draw one joint.
+    """Draw one joint, or the first of each kind.
 
     Parameters
     ----------
@@ -110,37 +102,49 @@ def joint_picture(kit: Kit, explode: float = 0.0, *, size: tuple[int, int] = (12
     if not 0 <= explode <= _MOST_APART:
         msg = f"explode = {explode:g}: must be 0 to {_MOST_APART:g} sides"
         raise InputError(msg)
-    return _draw(kit, [[_joint(kit, explode)]], size)
+    joints = [_joint(kit, one, explode) for one in kit.joints[:_MOST_JOINTS]]
+    return _draw(kit, _in_rows(joints, _MOST_IN_ROW), size)
 
 
 def assembly_picture(kit: Kit, *, size: tuple[int, int] = (1200, 700)) -> bytes:
-    """Draw how a joint is put together: each step with what comes in just outside.
+    """Draw how joints are put together: each step with what comes in just outside.
 
     Parameters
     ----------
     kit
         The kit.
     size
-        Width and height in pixels.
+        Width and height in pixels, of each kind of joint.
 
     Raises
     ------
     InputError
         The kit was not checked, so that nothing is known of how it is put together.
     """
-    if not kit.ways:
+    if not kit.proved:
         msg = "the kit is unchecked: no way is known on which its joint is put together"
         raise InputError(msg)
-    there = set(range(len(kit.joint)))
+    shown = kit.joints[:_MOST_JOINTS]
+    rows = [row for one in shown for row in _in_rows(_steps(kit, one), _MOST_IN_ROW)]
+    return _draw(kit, rows, (size[0], size[1] * len(shown)))
+
+
+def _steps(kit: Kit, one: Joint) -> list[_Item]:
+    """A joint at each step of putting it together."""
+    there = set(range(len(one.pieces)))
     steps = []
-    for way in kit.ways:
+    for way in one.ways:
         out = way.path.scaled(kit.values["side"]).poses[-1]
-        steps.append(_joint(kit, 0.0, dict.fromkeys(way.moving, out), there))
+        steps.append(_joint(kit, one, 0.0, dict.fromkeys(way.moving, out), there))
         there -= {*way.moving}
-    steps.reverse()
-    rows = math.ceil(len(steps) / _MOST_IN_ROW)
-    count = math.ceil(len(steps) / rows)
-    return _draw(kit, [steps[n : n + count] for n in range(0, len(steps), count)], size)
+    return steps[::-1]
+
+
+def _in_rows(items: Sequence[_Item], most: int) -> list[Sequence[_Item]]:
+    """Items in as few rows as need be, all of them about as long."""
+    rows = math.ceil(len(items) / most)
+    count = math.ceil(len(items) / max(rows, 1))
+    return [items[n : n + count] for n in range(0, len(items), max(count, 1))]
 
 
 def parts_picture(kit: Kit, *, size: tuple[int, int] = (1200, 900)) -> bytes:
@@ -153,14 +157,15 @@ def parts_picture(kit: Kit, *, size: tuple[int, int] = (1200, 900)) -> bytes:
     size
         Width and height in pixels.
     """
-    needed = bill(_frame(kit))
-    elements = [name for name in needed if _ALONE[name] in ("row", "cross")]
+    needed = bill(kit.placements, kit.parts)
+    roles = _roles(kit)
+    elements = [name for name in needed if roles[name] in ("row", "cross")]
     pieces = [name for name in needed if name not in elements]
     return _draw(kit, [[_alone(kit, n) for n in row] for row in (elements, pieces)], size)
 
 
 def frame_picture(kit: Kit, *, size: tuple[int, int] = (1200, 900)) -> bytes:
-    """Draw the whole frame, rows by columns.
+    """Draw the whole frame.
 
     Parameters
     ----------
@@ -169,16 +174,21 @@ def frame_picture(kit: Kit, *, size: tuple[int, int] = (1200, 900)) -> bytes:
     size
         Width and height in pixels.
     """
-    shells = _placed(kit, _frame(kit), kit.values, 0.0)
+    shells = _placed(kit, kit.placements, kit.values, 0.0)
     return render(shells, size=size, view=(-70.0, 52.0))
 
 
-def _frame(kit: Kit) -> tuple[Placement, ...]:
-    return LAYOUTS[kit.frame](kit.rows, kit.columns, kit.key)
+def _roles(kit: Kit) -> dict[str, str]:
+    """The role in which each part is shown alone."""
+    placed = [*(p for one in kit.joints for p in one.pieces), *kit.placements]
+    roles = dict.fromkeys(kit.parts, "row")
+    roles |= {name: "cap" for one in kit.joints for name in one.connectors}
+    return roles | {p.part: p.role for p in reversed(placed)}
 
 
 def _joint(
     kit: Kit,
+    one: Joint,
     explode: float,
     moved: Mapping[int, Floats] = MappingProxyType({}),
     there: Collection[int] | None = None,
@@ -187,9 +197,9 @@ def _joint(
 
     Some may be moved, each by a pose; and some may not be there.
     """
-    shells = _placed(kit, kit.joint, kit.values, explode)
+    shells = _placed(kit, one.pieces, kit.values, explode)
     seen = 0
-    for n, placement in enumerate(kit.joint):
+    for n, placement in enumerate(one.pieces):
         points, triangles, colour = shells[n]
         if n in moved:
             points = points @ moved[n][:3, :3].T + moved[n][:3, 3]
@@ -209,7 +219,7 @@ def _alone(kit: Kit, name: str) -> _Item:
     """One part, with a tube no longer than a few sides."""
     shortest, _ = limits(kit, "edge_length", kit.values)
     shown = min(kit.values["edge_length"], shortest + _SHOWN * kit.values["side"])
-    placement = Placement(name, (0.0, 0.0), _PART_TURN, flip=False, role=_ALONE[name])
+    placement = Placement(name, (0.0, 0.0), _PART_TURN, flip=False, role=_roles(kit)[name])
     return _placed(kit, [placement], {**kit.values, "edge_length": shown}, 0.0)
 
 
@@ -232,7 +242,7 @@ def _placed(
 
 def _way(placement: Placement, points: Floats) -> Floats:
     """Where a piece goes when a joint is pulled apart, before it is turned, in its explosion."""
-    if placement.part == "half":
+    if placement.role in ("half_a", "half_b"):
         return np.array([0.5, 0.5 * math.copysign(1.0, points[:, 1].mean()), 0.0])
     return np.array([1.0, 0.0, 0.0])
 

@@ -5,20 +5,20 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from itertools import pairwise
 from typing import Any
 
 from scadgen import __version__
-from scadgen.emit.scad_parameters import PART_LABELS, Parameter, limits, sections
+from scadgen.emit.scad_parameters import Parameter, elements, label, limits, sections
 from scadgen.emit.scad_text import literal
 from scadgen.emit.templates import environment
-from scadgen.frame.layout import LAYOUTS, MOST_CELLS, bill
-from scadgen.kit.model import Kit
+from scadgen.frame.layout import MOST_CELLS, bill
+from scadgen.kit.model import Joint, Kit
 from scadgen.solid.mesh import volume
 
 __all__ = ["readme"]
 
-#: Pieces small enough to get lost, and the share of them to print as spares.
-_SMALL = ("connector", "half", "peg")
+#: Share of the small pieces, which get lost, to print as spares.
 _SPARE = 0.1
 
 #: Density of PLA, in g/cm3.
@@ -63,7 +63,9 @@ def readme(kit: Kit) -> str:
         total=total,
         grams=total * _PLA,
         others=[f"`{name}`" for name in kit.parts if name not in asked],
-        one_joint=bill(kit.joint),
+        joints=[_joint(kit, one) for one in kit.joints],
+        grid=kit.rows > 0,
+        half_names=sorted({name for one in kit.joints for name in one.half_parts}),
         side=literal(kit.values["side"]),
         peg_length=literal(kit.values["peg_length"]),
         coupon_count=settings["coupon_count"].value,
@@ -71,27 +73,38 @@ def readme(kit: Kit) -> str:
         coupon_step=settings["coupon_step"].value,
         live=[_live(kit, settings[name]) for name in settings if name in kit.values],
         most_cells=MOST_CELLS,
-        weave={name: _text(value) for name, value in kit.weave.items()},
-        assembly=bool(kit.ways),
-        verdicts={name: _text(found) for name, found in kit.verdicts.items()},
-        figures={name: _text(value) for name, value in kit.figures.items()},
+        proved=kit.proved,
         command=_fenced(kit.command),
     )
+
+
+def _joint(kit: Kit, one: Joint) -> dict[str, Any]:
+    """What a kind of joint is made of, and what is known about it."""
+    return {
+        "name": one.name,
+        "title": one.title,
+        "bill": bill(one.pieces, kit.parts),
+        "angles": [f"{b - a:.5g}" for a, b in pairwise([*one.turns, 360.0])],
+        "weave": {name: _text(value) for name, value in one.weave.items()},
+        "verdicts": {name: _text(found) for name, found in one.verdicts.items()},
+        "figures": {name: _text(value) for name, value in one.figures.items()},
+    }
 
 
 def _needed(kit: Kit) -> list[dict[str, Any]]:
     """What the frame needs: part, what it is, count, spares, and volume in cm3."""
     key_end = "peg end" if kit.key == "fixed" else "socket end"
+    large = set(elements(kit))
     rows: list[dict[str, Any]] = []
-    for name, count in bill(LAYOUTS[kit.frame](kit.rows, kit.columns, kit.key)).items():
+    for name, count in bill(kit.placements, kit.parts).items():
         solid = kit.parts[name]
         each = volume(solid.points(kit.values), solid.triangles) / 1000
         rows.append(
             {
                 "part": name,
-                "what": PART_LABELS[name].replace("peg end", key_end),
+                "what": label(name).replace("peg end", key_end),
                 "count": count,
-                "spare": math.ceil(_SPARE * count) if name in _SMALL else 0,
+                "spare": 0 if name in large else math.ceil(_SPARE * count),
                 "each": each,
                 "all": count * each,
             }

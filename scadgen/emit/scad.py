@@ -12,22 +12,19 @@ from typing import Any
 import numpy as np
 
 from scadgen import __version__
-from scadgen.emit.scad_parameters import parameter_sets, sections
+from scadgen.emit.scad_parameters import elements, parameter_sets, sections
 from scadgen.emit.scad_text import comment, expression, faces, number, quoted, table
 from scadgen.emit.templates import environment
 from scadgen.errors import InvariantError
 from scadgen.frame.layout import LAYOUTS, MOST_CELLS
 from scadgen.frame.placement import Placement
-from scadgen.kit.model import Kit
+from scadgen.kit.model import Joint, Kit
 from scadgen.solid.affine import PARAMETERS, AffineSolid
 
 __all__ = ["parameter_sets", "scad"]
 
 #: Live parameters that every kit has; the template counts on them.
 _NEEDED = ("side", "edge_length", "clearance", "peg_width", "peg_length", "peg_clearance")
-
-#: Edge elements, as `edge_element(kind)` names them.
-_ELEMENTS = ("basic", "one_sided", "two_sided", "tube")
 
 
 def scad(kit: Kit) -> str:
@@ -57,9 +54,9 @@ def scad(kit: Kit) -> str:
         purpose="Parts of a planar truss, a joint, print plates, the whole frame, and a coupon.",
         version=__version__,
         command=comment(kit.command),
-        weave=comment(", ".join(f"{k} = {v}" for k, v in kit.weave.items())),
         key=kit.key,
-        verdicts={comment(name): comment(found) for name, found in kit.verdicts.items()},
+        joints=[_joint(one) for one in kit.joints],
+        proved=kit.proved,
         detail=comment(kit.detail),
         frame=kit.frame,
         file=f"{kit.frame}.scad",
@@ -76,8 +73,10 @@ def scad(kit: Kit) -> str:
             for r in kit.ranges
         ],
         parts=[_part(solid, live) for solid in kit.parts.values()],
-        elements=[name for name in _ELEMENTS if name in kit.parts],
-        joint=[_placement(p) for p in kit.joint],
+        elements=elements(kit),
+        first_element=next(iter(kit.parts)),
+        grid=kit.rows > 0,
+        placements=[_placement(p) for p in kit.placements],
         half_side=_half_side(kit),
         chamfer=f"s[{live.index('peg_chamfer')}]" if "peg_chamfer" in live else "0",
         most_cells=MOST_CELLS,
@@ -90,14 +89,14 @@ def scad(kit: Kit) -> str:
 
 def _check(kit: Kit) -> None:
     """Check what the template counts on."""
-    if kit.frame not in LAYOUTS:
+    if kit.frame not in LAYOUTS and kit.graph is None:
         msg = f"every kit's frame has a layout: {kit.frame!r} has none"
         raise InvariantError(msg)
     for name in _NEEDED:
         if name not in kit.values:
             msg = f"every kit has the live parameter {name}: this one has not"
             raise InvariantError(msg)
-    placed = (*kit.joint, *LAYOUTS[kit.frame](1, 1, kit.key))
+    placed = [*kit.placements, *(p for one in kit.joints for p in one.pieces)]
     for name in sorted({p.part for p in placed} - set(kit.parts)):
         msg = f"a kit has every part of its frame: {name} is missing"
         raise InvariantError(msg)
@@ -105,6 +104,18 @@ def _check(kit: Kit) -> None:
         for parameter in sorted(set(solid.coefficients) - set(kit.values)):
             msg = f"a part moves with the kit's live parameters only: {name} with {parameter}"
             raise InvariantError(msg)
+
+
+def _joint(one: Joint) -> Mapping[str, Any]:
+    """One kind of joint, as the template writes it."""
+    return {
+        "name": one.name,
+        "title": one.title,
+        "view": one.view,
+        "weave": comment(", ".join(f"{k} = {v}" for k, v in one.weave.items())),
+        "verdicts": {comment(name): comment(found) for name, found in one.verdicts.items()},
+        "pieces": [_placement(p) for p in one.pieces],
+    }
 
 
 def _part(solid: AffineSolid, live: list[str]) -> Mapping[str, Any]:
@@ -125,4 +136,5 @@ def _placement(p: Placement) -> str:
 
 def _half_side(kit: Kit) -> int:
     """Tell the side of its edge that half A is on: 1 for y above zero, -1 for below."""
-    return 1 if kit.parts["half"].points(kit.values)[:, 1].mean() > 0 else -1
+    half = kit.parts[kit.joints[0].pieces[0].part]
+    return 1 if half.points(kit.values)[:, 1].mean() > 0 else -1

@@ -12,10 +12,19 @@ from scadgen.errors import InvariantError
 from scadgen.frame.layout import MOST_CELLS
 from scadgen.kit.model import Kit
 
-__all__ = ["PART_LABELS", "Parameter", "Section", "limits", "parameter_sets", "sections"]
+__all__ = [
+    "Parameter",
+    "Section",
+    "elements",
+    "label",
+    "limits",
+    "parameter_sets",
+    "sections",
+    "views",
+]
 
 #: What each choice of ``part`` is, for the Customizer; no comma, colon or bracket.
-PART_LABELS: Mapping[str, str] = {
+_LABELS: Mapping[str, str] = {
     "basic": "Edge element with two connectors",
     "one_sided": "Edge element with connector and peg end",
     "two_sided": "Edge element with two peg ends",
@@ -23,6 +32,7 @@ PART_LABELS: Mapping[str, str] = {
     "half": "Locking half - print two a joint",
     "peg": "Loose peg",
     "tube": "Plain tube",
+    "edge": "Edge element",
     "plate": "Print plate of a whole frame",
     "joint": "Joint assembled",
     "joint_exploded": "Joint pulled apart",
@@ -76,10 +86,44 @@ class Section:
     parameters: tuple[Parameter, ...]
 
 
+def elements(kit: Kit) -> list[str]:
+    """The edge elements, as ``edge_element(kind)`` names them."""
+    halves_and_pegs = {p.part for one in kit.joints for p in one.pieces if p.role != "cap"}
+    others = halves_and_pegs.union(*(one.connectors for one in kit.joints))
+    return [name for name in kit.parts if name not in others]
+
+
+def views(kit: Kit) -> list[str]:
+    """What is drawn beside single parts, as ``part`` names it."""
+    joints = [view for one in kit.joints for view in (one.view, f"{one.view}_exploded")]
+    return ["plate", *joints, "frame", "coupon"]
+
+
+def label(choice: str) -> str:
+    """What a choice of ``part`` is, in a few words.
+
+    Examples
+    --------
+    >>> label("half_A2_over")
+    'Locking half A2 turned over'
+    """
+    if choice in _LABELS:
+        return _LABELS[choice]
+    kind, _, rest = choice.partition("_")
+    number, _, turned = rest.partition("_")
+    if kind == "half":
+        return f"Locking half {number}" + (" turned over" if turned else "")
+    if kind == "joint":
+        return f"Joint {number} " + ("pulled apart" if turned else "assembled")
+    words = {"connector": "Loose connector {} for the rim"}.get(kind, _LABELS[kind] + " {}")
+    return words.format(number)
+
+
 def sections(kit: Kit) -> tuple[Section, ...]:
     """Everything a user can set, in the order of the file."""
-    choices = [*kit.parts, "plate", "joint", "joint_exploded", "frame", "coupon"]
-    widget = "[" + ", ".join(f"{c}:{PART_LABELS[c]}" for c in choices) + "]"
+    choices = [*kit.parts, *views(kit)]
+    widget = "[" + ", ".join(f"{c}:{label(c)}" for c in choices) + "]"
+    shown = f'"{kit.joints[0].view}"'
     live: dict[str, list[Parameter]] = {}
     for name, (title, text, step) in _LIVE.items():
         if name in kit.values:
@@ -87,17 +131,10 @@ def sections(kit: Kit) -> tuple[Section, ...]:
                 Parameter(name, literal(kit.values[name]), _slider(kit, name, step), text)
             )
     first = literal(min(1.0, max(0.02, round(kit.values["peg_clearance"] - 0.05, 2))))
-    cells = f"[1:1:{MOST_CELLS}]"
     return (
-        Section("Part", (Parameter("part", '"joint"', widget, "What to draw"),)),
+        Section("Part", (Parameter("part", shown, widget, "What to draw"),)),
         *(Section(title, tuple(rows)) for title, rows in live.items()),
-        Section(
-            "Frame",
-            (
-                Parameter("rows", str(kit.rows), cells, "Cells of the frame, bottom to top"),
-                Parameter("columns", str(kit.columns), cells, "Cells of the frame, left to right"),
-            ),
-        ),
+        *([_cells(kit)] if kit.rows else []),
         Section(
             "Plate",
             (
@@ -124,6 +161,18 @@ def sections(kit: Kit) -> tuple[Section, ...]:
                     "How far the frame is pulled apart, in sides (the joint: 3.5 when 0)",
                 ),
             ),
+        ),
+    )
+
+
+def _cells(kit: Kit) -> Section:
+    """The sliders of a frame that has rows and columns."""
+    cells = f"[1:1:{MOST_CELLS}]"
+    return Section(
+        "Frame",
+        (
+            Parameter("rows", str(kit.rows), cells, "Cells of the frame, bottom to top"),
+            Parameter("columns", str(kit.columns), cells, "Cells of the frame, left to right"),
         ),
     )
 
@@ -176,7 +225,7 @@ def parameter_sets(kit: Kit) -> str:
         "half size": _scaled(kit, defaults, lengths, 0.5),
         "double size": _scaled(kit, defaults, lengths, 2.0),
         "short edges": _scaled(kit, defaults, ["edge_length"], 0.75),
-        "exploded joint": defaults | {"part": "joint_exploded"},
+        "exploded joint": defaults | {"part": f"{kit.joints[0].view}_exploded"},
         "whole frame": defaults | {"part": "frame"},
         "print plate": defaults | {"part": "plate"},
         "coupon": defaults | {"part": "coupon"},

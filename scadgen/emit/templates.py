@@ -9,7 +9,12 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 import scadgen
 from scadgen.errors import InvariantError
 
-__all__ = ["environment"]
+__all__ = ["UNCHECKED", "environment"]
+
+#: What every text file of a kit that was not proved says, where comments can be.
+UNCHECKED = (
+    "UNCHECKED: nothing was proved of this kit's joints; they may not lock, or not come together."
+)
 
 
 def _folder() -> Path:
@@ -26,7 +31,7 @@ def environment() -> Environment:
     """Make the Jinja2 environment that renders every generated text file.
 
     An undefined name is an error, nothing is escaped, and a block tag alone on its line
-    leaves no line behind.
+    leaves no line behind.  Templates know what to say of an `unchecked` kit.
 
     Returns
     -------
@@ -38,7 +43,7 @@ def environment() -> Environment:
     InvariantError
         The templates were not shipped.
     """
-    return Environment(
+    made = Environment(
         loader=FileSystemLoader(_folder()),
         undefined=StrictUndefined,
         keep_trailing_newline=True,
@@ -47,3 +52,5 @@ def environment() -> Environment:
         # The outputs are OpenSCAD, Make and Markdown, never HTML.
         autoescape=False,  # noqa: S701
     )
+    made.globals["unchecked"] = UNCHECKED
+    return made

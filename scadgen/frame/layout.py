@@ -163,10 +163,10 @@ def joint(valence: int, key: str) -> tuple[Placement, ...]:
     return tuple(_pieces(_Vertex((0.0, 0.0), 0.0, has_key_edge=False, open_ends=ends), key))
 
 
-def bill(placements: Iterable[Placement]) -> dict[str, int]:
-    """Count the pieces of each part, in the order of `PARTS`."""
+def bill(placements: Iterable[Placement], parts: Iterable[str] = PARTS) -> dict[str, int]:
+    """Count the pieces of each part, in the order of `parts`."""
     counts = Counter(p.part for p in placements)
-    return {part: counts[part] for part in PARTS if part in counts}
+    return {part: counts[part] for part in parts if part in counts}
 
 
 def _pieces(vertex: _Vertex, key: str) -> Iterator[Placement]:

@@ -7,6 +7,7 @@ are equally long and end in the same places of the same joints, one way round or
 from __future__ import annotations
 
 import math
+import string
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,7 +19,15 @@ from scadgen.frame.graph import Frame
 from scadgen.frame.planarity import where
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["EdgeClass", "Sameness", "Snapped", "group_values", "sameness", "snap"]
+__all__ = [
+    "EdgeClass",
+    "Sameness",
+    "Snapped",
+    "group_values",
+    "joint_name",
+    "sameness",
+    "snap",
+]
 
 #: Joints are the same within this, in radians: what three decimals do to edges of 10 mm.
 _ANGLE = 1e-4
@@ -193,6 +202,23 @@ def snap(frame: Frame, angle: float, length: float) -> Snapped:
         float(miss.max()),
         notes,
     )
+
+
+def joint_name(kind: int) -> str:
+    """Name of a kind of joint: A to Z, then AA, AB, ...
+
+    Parameters
+    ----------
+    kind
+        Its number, from 0.
+
+    Examples
+    --------
+    >>> joint_name(0), joint_name(25), joint_name(26)
+    ('A', 'Z', 'AA')
+    """
+    more, letter = divmod(kind, 26)
+    return (joint_name(more - 1) if more else "") + string.ascii_uppercase[letter]
 
 
 def group_values(values: Floats, tolerance: float) -> tuple[Floats, Ints]:

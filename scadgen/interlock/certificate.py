@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Collection
 
 import numpy as np
-from scipy.sparse import coo_array, csc_array
+from scipy.sparse import coo_array, csc_array, csr_array
 from scipy.sparse.linalg import ArpackError, eigsh
 
 from scadgen.interlock.contacts import Contacts
 from scadgen.interlock.verdict import Certificate
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["check_certificate", "rank_deficiency"]
+__all__ = ["BALANCED", "check_certificate"]
+
+#: Below this a certificate is a proof.  1 would do; what balances but for rounding is far below.
+BALANCED = 1e-6
 
 #: Least eigenvalue of the stiffness, as a share of the largest, that counts as above zero.
 _RANK = 1e-12
@@ -24,9 +27,15 @@ _DENSE = 600
 def check_certificate(
     contacts: Contacts, held: Collection[int], count: int, certificate: Certificate
 ) -> float:
-    """Largest force or torque left on a free part, as a share of all forces on it.
+    """How far a certificate is from a balance, as a share of what would make it no proof.
 
-    The forces are summed up part by part.  The proof holds if the result is below 1e-8.
+    Let A be the contacts' rows, with rotations scaled by the reach of each part's contacts, s
+    its least singular value, and l the forces, each at least 1.  If A x >= 0 then
+
+        s |x| <= |A x| <= sum of A x <= l . A x <= |A^T l| |x|,
+
+    so that |A^T l| / s below 1 leaves nothing but x = 0.  Forces that balance by themselves
+    make neither side larger or smaller.
 
     Parameters
     ----------
@@ -41,10 +50,11 @@ def check_certificate(
 
     Returns
     -------
-    residual
-        Infinite if the certificate is no proof for another reason: a contact that does not
-        exist or comes twice, a force below 1, a free part without any, or a rank that is not
-        six times the number of free parts, found anew.
+    quotient
+        |A^T l| / s; the proof holds below `BALANCED`.  Infinite if the certificate is no proof
+        for another reason: a contact that does not exist or comes twice, a force below 1, a
+        free part without any, or a rank that is not six times the number of free parts, found
+        anew.
     """
     rows, forces = np.asarray(certificate.rows), np.asarray(certificate.forces)
     free = np.setdiff1d(np.arange(count), list(held))
@@ -53,63 +63,45 @@ def check_certificate(
         return np.inf
     if not np.isfinite(forces).all() or forces.min() < 1 - 1e-9:
         return np.inf
-    push = forces[:, None] * contacts.normals[rows]
-    middle = contacts.points[rows].mean(axis=0)
-    arms = contacts.points[rows] - middle
-    wrench = np.concatenate([push, np.cross(arms, push)], axis=1)
-    total, left = np.zeros(count), np.zeros((count, 6))
-    for part, sign in ((contacts.second[rows], 1.0), (contacts.first[rows], -1.0)):
-        np.add.at(left, part, sign * wrench)
-        np.add.at(total, part, forces)
-    if not total[free].all() or certificate.rank != 6 * len(free):
+    pushing = contacts.some(rows)
+    touched = np.isin(free, [pushing.first, pushing.second]).all()
+    if not touched or certificate.rank != 6 * len(free):
         return np.inf
-    reach = max(float(np.linalg.norm(arms, axis=1).max()), np.finfo(float).tiny)
-    left[:, 3:] /= reach
-    if rank_deficiency(contacts, free, rows):
-        return np.inf
-    return float((np.linalg.norm(left[free], axis=1) / total[free]).max())
+    matrix = _scaled(pushing, free)
+    least = _least_singular(matrix)
+    return float(np.linalg.norm(matrix.T @ forces) / least) if least else np.inf
 
 
-def rank_deficiency(contacts: Contacts, free: Ints, rows: Ints) -> int:
-    """How many independent motions some contacts do not feel at all.
-
-    Parameters
-    ----------
-    contacts
-        The assembly's contacts.
-    free
-        Numbers of the parts that are not held.
-    rows
-        Numbers of the contacts that count.
-
-    Returns
-    -------
-    count
-        In assemblies of more than 100 free parts 1 stands for any number above 0.
-    """
-    normals, points = contacts.normals[rows], contacts.points[rows]
-    ends = (contacts.first[rows], contacts.second[rows])
-    parts = [np.flatnonzero((ends[0] == part) | (ends[1] == part)) for part in free]
+def _scaled(contacts: Contacts, free: Ints) -> csr_array:
+    """A row a contact; columns are a free part's motion, about the middle of its contacts."""
     entries: list[tuple[Floats, Ints, Ints]] = []
-    for number, (part, mine) in enumerate(zip(free, parts, strict=True)):
-        arms = points[mine] - points[mine].mean(axis=0)
-        size = max(float(np.linalg.norm(arms, axis=1).max(initial=0.0)), np.finfo(float).tiny)
-        block = np.concatenate([normals[mine], np.cross(arms, normals[mine]) / size], axis=1)
-        block[ends[0][mine] == part] *= -1
+    for number, part in enumerate(free):
+        mine = np.flatnonzero((contacts.first == part) | (contacts.second == part))
+        points, normals = contacts.points[mine], contacts.normals[mine]
+        arms = points - points.mean(axis=0)
+        reach = max(float(np.linalg.norm(arms, axis=1).max()), np.finfo(float).tiny)
+        block = np.concatenate([normals, np.cross(arms, normals) / reach], axis=1)
+        block[contacts.first[mine] == part] *= -1
         column = np.tile(6 * number + np.arange(6), len(mine))
         entries.append((block.ravel(), np.repeat(mine, 6), column))
     values, row, column = (np.concatenate(e) for e in zip(*entries, strict=True))
-    matrix = coo_array((values, (row, column)), shape=(len(rows), 6 * len(free))).tocsr()
+    return csr_array(coo_array((values, (row, column)), shape=(len(contacts), 6 * len(free))))
+
+
+def _least_singular(matrix: csr_array) -> float:
+    """The least singular value, 0 where the rank is not full."""
     stiffness = csc_array(matrix.T @ matrix)
     if stiffness.shape[0] <= _DENSE:
         found = np.linalg.eigvalsh(stiffness.toarray())
-        return int((found <= _RANK * found[-1]).sum())
-    start = np.ones(stiffness.shape[0])
-    largest = float(eigsh(stiffness, 1, which="LM", v0=start, return_eigenvectors=False)[0])
-    try:
-        least = eigsh(
-            stiffness, 1, sigma=-_RANK * largest, which="LM", v0=start, return_eigenvectors=False
-        )
-    except (RuntimeError, ArpackError):  # the factor is exactly singular, or it never settles
-        return 1
-    return int(least[0] <= _RANK * largest)
+        least, largest = float(found[0]), float(found[-1])
+    else:
+        start = np.ones(stiffness.shape[0])
+        largest = float(eigsh(stiffness, 1, which="LM", v0=start, return_eigenvectors=False)[0])
+        shift = -_RANK * largest
+        try:
+            (least,) = eigsh(
+                stiffness, 1, sigma=shift, which="LM", v0=start, return_eigenvectors=False
+            )
+        except (RuntimeError, ArpackError):  # the factor is exactly singular, or never settles
+            return 0.0
+    return float(np.sqrt(least)) if least > _RANK * largest else 0.0

@@ -1,10 +1,11 @@
 """The way of a rigid body out of others, and its checks.
 
-They share no code with the search.  `replay` places the solids at poses so close to each other
-that no point moves farther than a step between them, and measures what they have in common.
-`narrowest` proves that they touch nowhere, also between the poses: a body that is d away from
-all others may move each of its points by d, and meets none of them (conservative advancement:
-Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, section 2.3).
+`replay`, which the search makes of what it finds, places the solids at poses so close to each
+other that no point moves farther than a step between them, and measures what they have in
+common.  `narrowest` proves that they touch nowhere, also between the poses: a body that is d
+away from all others may move each of its points by d, and meets none of them (conservative
+advancement: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, section 2.3).
+The search has no part in that proof; they share the solids and manifold3d.
 """
 
 from __future__ import annotations
@@ -17,9 +18,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from scadgen.errors import InputError, InvariantError
+from scadgen.errors import InputError
 from scadgen.interlock.contacts import Mesh
 from scadgen.solid.affine import Floats
+from scadgen.solid.gap import solid
 
 if TYPE_CHECKING:
     from manifold3d import Manifold
@@ -289,20 +291,9 @@ def united(meshes: Sequence[Mesh]) -> Manifold:
     InvariantError
         If one of the meshes is not a solid.
     """
-    from manifold3d import Error, Manifold, Mesh64, OpType  # slow to import
+    from manifold3d import Manifold, OpType  # slow to import
 
     if not meshes:
         msg = "0 meshes: a body needs at least 1"
         raise InputError(msg)
-    solids = []
-    for number, (points, triangles) in enumerate(meshes):
-        mesh = Mesh64(
-            vert_properties=np.ascontiguousarray(points, dtype=np.float64),
-            tri_verts=np.ascontiguousarray(triangles, dtype=np.uint64),
-        )
-        solid = Manifold(mesh)
-        if solid.status() != Error.NoError or not solid.volume() > 0:
-            msg = f"closed solid: mesh {number} is none, {solid.status().name}"
-            raise InvariantError(msg)
-        solids.append(solid)
-    return Manifold.batch_boolean(solids, OpType.Add)
+    return Manifold.batch_boolean([solid(*mesh) for mesh in meshes], OpType.Add)

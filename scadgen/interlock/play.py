@@ -12,14 +12,13 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from scadgen.errors import InputError
 from scadgen.interlock.assembly import Assembly, extreme_rows
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.path import united
 from scadgen.interlock.program import farthest
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["loosest", "measured", "play"]
+__all__ = ["loosest", "measured"]
 
 #: Rows to add at most in a round, for each unknown.
 _ADD = 5
@@ -32,39 +31,6 @@ _MOST, _FINE = 2.0, 2e-3
 
 #: Shared volume, in cubes of the gap, that is rounding.
 _NONE = 1e-6
-
-
-def play(assembly: Assembly, part: int, point: Floats) -> Floats:
-    """Farthest a point of a part moves along each axis, per unit of gap.
-
-    Parameters
-    ----------
-    assembly
-        The assembly; it should be locked.
-    part
-        Number of a free part.
-    point
-        ``(3,) float``: a point that moves with the part.
-
-    Returns
-    -------
-    travel
-        ``(2, 3) float``: along -x, -y, -z and along +x, +y, +z; infinite where the part is
-        free to go.
-
-    Raises
-    ------
-    InputError
-        The part is held, or there is none of that number.
-    ToolError
-        The solver gives no answer: its status.
-    """
-    travel, chosen = np.empty((2, 3)), extreme_rows(assembly)
-    for axis, side in itertools.product(range(3), range(2)):
-        goal = _goal(assembly, part, point, (2 * side - 1) * np.eye(3)[axis])
-        x, chosen = _farthest(assembly, goal, chosen)
-        travel[side, axis] = np.inf if x is None else goal @ x
-    return travel
 
 
 def loosest(assembly: Assembly, points: Floats) -> tuple[float, Floats]:
@@ -106,9 +72,6 @@ def loosest(assembly: Assembly, points: Floats) -> tuple[float, Floats]:
 
 def _goal(assembly: Assembly, part: int, point: Floats, direction: Floats) -> Floats:
     """How fast a point of a part moves in a direction, by the assembly's unknowns."""
-    if part not in assembly.free:
-        msg = f"part = {part}: must be one that is not held: {list(assembly.free)}"
-        raise InputError(msg)
     arm = (point - assembly.middles[part]) / assembly.sizes[part]
     first = 6 * assembly.free.index(part)
     goal = np.zeros(assembly.rows.shape[1])

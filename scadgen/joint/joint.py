@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -39,6 +38,9 @@ class Detail:
     samples: int
     cells: int
 
+
+#: Gaps as near to each other as this are the same, in radians.
+_ALIKE = 1e-9
 
 #: The levels of detail by name.
 DETAILS: Mapping[str, Detail] = MappingProxyType(
@@ -90,8 +92,8 @@ def make_joint(edges: Sequence[float], weave: Weave, detail: Detail, extra: int 
     Parameters
     ----------
     edges
-        Directions of the edges, ascending, in [0, 2 pi), at least two.  When they divide
-        the circle evenly, one half is computed and turned into all others.
+        Directions of the edges, ascending, in [0, 2 pi), at least two.  What is alike when
+        the joint is turned, or turned over about an edge, is computed once.
     weave
         Its weave.
     detail
@@ -111,8 +113,8 @@ def make_joint(edges: Sequence[float], weave: Weave, detail: Detail, extra: int 
     lattice = make_lattice(edges, weave.ring_ratio, detail.cells, extra)
     curves = site_curves(lattice.edges, weave, detail.samples)
     lattice = without_corners(lattice, corners_in_the_way(lattice, curves))
-    even = np.allclose(np.diff(lattice.edges), 2 * math.pi / len(lattice.edges), rtol=0, atol=1e-12)
-    computed = range(1 if even else len(lattice.edges))
+    gaps = np.diff(np.append(lattice.edges, lattice.edges[0] + 2 * np.pi))
+    computed = range(_period(gaps))
     for edge in computed:
         check_footprint(lattice, curves, edge)
     far = distances(curves, lattice.nodes)
@@ -125,11 +127,26 @@ def make_joint(edges: Sequence[float], weave: Weave, detail: Detail, extra: int 
     for index in np.ndindex(labels.shape):
         position["node", 0, index[0], index[1], index[2]] = lattice.nodes[index]
     pairs = [halves(lattice, labels, walls, position, edge) for edge in computed]
-    if even:
-        pairs = [(pairs[0][0], half_turn(pairs[0][0]))] * len(lattice.edges)
-    whole = [simplify(join(a, b, SPLIT)) for a, b in (pairs[:1] if even else pairs)]
-    connectors = whole * (len(pairs) if even else 1)
-    return Joint(lattice.edges, weave, lattice, curves, tuple(connectors), tuple(pairs))
+    pairs = [
+        (first, half_turn(first)) if _turns_over(gaps, edge) else (first, second)
+        for edge, (first, second) in enumerate(pairs)
+    ]
+    connectors = tuple(simplify(join(first, second, SPLIT)) for first, second in pairs)
+    times = len(gaps) // len(pairs)
+    return Joint(lattice.edges, weave, lattice, curves, connectors * times, tuple(pairs * times))
+
+
+def _period(gaps: Floats) -> int:
+    """How many edges there are before all gaps come again."""
+    count = len(gaps)
+    periods = (n for n in range(1, count + 1) if count % n == 0)
+    return next(n for n in periods if np.allclose(gaps, np.roll(gaps, n), rtol=0, atol=_ALIKE))
+
+
+def _turns_over(gaps: Floats, edge: int) -> bool:
+    """Whether a half turn about an edge maps the joint onto itself."""
+    onwards = np.roll(gaps, -edge)
+    return bool(np.allclose(onwards, onwards[::-1], rtol=0, atol=_ALIKE))
 
 
 def check_footprint(lattice: Lattice, curves: Sequence[SiteCurve], edge: int) -> None:

@@ -12,12 +12,13 @@ from dataclasses import asdict, dataclass, field, fields
 from types import MappingProxyType
 
 import numpy as np
+from scipy.optimize import brentq
 from scipy.spatial import cKDTree
 
 from scadgen.errors import InputError
 from scadgen.solid.affine import Floats
 
-__all__ = ["BUILT_IN", "LIMITS", "SiteCurve", "Weave", "built_in"]
+__all__ = ["BUILT_IN", "LIMITS", "SiteCurve", "Weave", "any_joint", "built_in"]
 
 #: What each weave parameter may be: (low, high).
 LIMITS: Mapping[str, tuple[float, float]] = {
@@ -26,7 +27,11 @@ LIMITS: Mapping[str, tuple[float, float]] = {
     "amplitude": (0.0, 1.0),
     "bend": (0.0, 1.5),
     "periods": (0.25, 4.0),
+    "stretch": (1.0, 20.0),
 }
+
+#: How gently an arm that followed the ring begins to weave, in sides.
+_GENTLE = 0.25
 
 #: Newton steps to the nearest point; quadratic from a sample's distance, so 1e-12 after 4.
 _STEPS = 4
@@ -48,6 +53,10 @@ class Weave:
         Ring ratio over the radius of its arc in plan: 0 is straight, 1 follows the ring.
     periods
         Half waves on each side of the edge.
+    stretch
+        Longest part of a gap, in sides along the ring's centre line, that the arms of two
+        neighbours weave in.  In a wider gap they follow the ring up to it, so that gaps of any
+        width are woven alike.  Without one all of each gap is woven in.
     name
         What to call it.
 
@@ -62,12 +71,15 @@ class Weave:
     amplitude: float
     bend: float
     periods: float
+    stretch: float | None = field(default=None, kw_only=True)
     name: str = field(default="custom", compare=False)
 
     def __post_init__(self) -> None:
         """Refuse what no curve can be made of."""
         for key, (low, high) in LIMITS.items():
             value = getattr(self, key)
+            if key == "stretch" and value is None:
+                continue
             number = isinstance(value, int | float) and not isinstance(value, bool)
             if not number or not low <= value <= high:
                 msg = f"weave: {key} = {value!r}: must be a number from {low:g} to {high:g}"
@@ -82,20 +94,21 @@ class Weave:
         InputError
             It is not an object with just the weave's parameters.
         """
-        wanted = {f.name for f in fields(cls)} - {"name"}
-        if not isinstance(entries, dict) or set(entries) - {"name"} != wanted:
+        known = {f.name for f in fields(cls)} - {"name"}
+        wanted = known - {"stretch"}
+        if not isinstance(entries, dict) or not wanted <= set(entries) - {"name"} <= known:
             msg = f"weave {name}: must be a JSON object with {', '.join(sorted(wanted))}"
             raise InputError(msg)
-        return cls(**{key: entries[key] for key in wanted}, name=name)
+        return cls(**{key: entries[key] for key in known & set(entries)}, name=name)
 
     @property
     def shape(self) -> tuple[float, float, float, float, float]:
-        """The parameters without the name, in the order above."""
+        """The parameters without stretch and name, in the order above."""
         return self.ring_ratio, self.span, self.amplitude, self.bend, self.periods
 
     def as_dict(self) -> dict[str, float | str]:
-        """Name and parameters, as JSON writes them."""
-        return asdict(self)
+        """Name and parameters, as JSON writes them; the stretch only where there is one."""
+        return {key: value for key, value in asdict(self).items() if value is not None}
 
 
 class SiteCurve:
@@ -120,50 +133,73 @@ class SiteCurve:
         self.weave = weave
         self._arguments = (gap_after, gap_before, samples)
         self._angle = angle
-        self._turn = (math.cos(angle), math.sin(angle))
-        self._reach = (
-            gap_before * weave.span * weave.ring_ratio,
-            gap_after * weave.span * weave.ring_ratio,
+        gaps = weave.ring_ratio * np.array([gap_before, gap_after])
+        woven = np.minimum(gaps, gaps.max() if weave.stretch is None else weave.stretch)
+        self._plain, self._reach = (gaps - woven) / 2, weave.span * woven
+        self._rate = np.array(
+            [_way_of(*pair) for pair in zip(self._reach, self._plain, strict=True)]
         )
         self._parameters = np.linspace(-1.0, 1.0, samples)
+        self._spacing = 2.0 / (samples - 1)
+        # Sides that differ meet at an angle, which no step towards a nearest point may cross.
+        sides = np.stack([self._reach, self._plain])
+        self._is_smooth = bool(np.allclose(sides[:, 0], sides[:, 1], rtol=0, atol=1e-9))
+        if not self._is_smooth:
+            self._parameters = np.union1d(self._parameters, [0.0])
         self._tree = cKDTree(self.points(self._parameters))
 
     def turned(self, angle: float) -> SiteCurve:
         """The curve turned about the ring's axis."""
-        gap_after, gap_before, samples = self._arguments
-        return SiteCurve(self.weave, self._angle + angle, gap_after, gap_before, samples)
+        return SiteCurve(self.weave, self._angle + angle, *self._arguments)
 
     def points(self, u: Floats) -> Floats:
         """Points of the curve: ``u`` in [-1, 1], shape ``(...)``, gives ``(..., 3)``."""
         return self._derivatives(u)[0]
 
     def _derivatives(self, u: Floats) -> tuple[Floats, Floats, Floats]:
-        """Position, first and second derivative by ``u``, each ``(..., 3)``."""
+        """Position, first and second derivative by ``u``, each ``(..., 3)``.
+
+        The woven arm at its own length, carried along the ring by what it starts late.
+        """
+        side = np.where(u >= 0, 1, 0)
+        rate, way = self._rate[side][..., None], u * self._rate[side]
+        length, slope, curve = _delayed(way, self._plain[side])
+        place, first, second = self._woven(length, self._reach[side])
+        radius = self.weave.ring_ratio
+        turn = self._angle + (way - length) / radius
+        if self._plain.any():
+            slope, curve = slope[..., None], curve[..., None]
+            spin, spun = (1 - slope) / radius, -curve / radius
+            second = (
+                spun * _across(place)
+                - spin**2 * place * [1.0, 1.0, 0.0]
+                + 2 * spin * slope * _across(first)
+                + curve * first
+                + slope**2 * second
+            )
+            first = spin * _across(place) + slope * first
+        return _turned(place, turn), _turned(first, turn) * rate, _turned(second, turn) * rate**2
+
+    def _woven(self, length: Floats, reach: Floats) -> tuple[Floats, Floats, Floats]:
+        """An arm that weaves from its edge on: place and derivatives by its length in plan."""
         weave = self.weave
-        rate = np.where(u >= 0, self._reach[1], self._reach[0])
-        length = u * rate
         bend = weave.bend / weave.ring_ratio
         turn = length * bend
         # (1 - cos t)/b and (sin t)/b written so that a straight curve (b = 0) is no special case.
         half = np.sinc(turn / (2 * np.pi))
         x = weave.ring_ratio - 0.5 * length * turn * half**2
         y = length * np.sinc(turn / np.pi)
-        wave = math.pi * weave.periods
-        lift = weave.amplitude
-        place = (x, y, lift * np.sin(wave * u))
-        first = (-rate * np.sin(turn), rate * np.cos(turn), lift * wave * np.cos(wave * u))
-        pull = rate**2 * bend
-        second = (
-            -pull * np.cos(turn),
-            -pull * np.sin(turn),
-            -lift * wave**2 * np.sin(wave * u),
+        c, s = np.cos(turn), np.sin(turn)
+        wave = math.pi * weave.periods / reach
+        rise, fall = (
+            weave.amplitude * np.sin(wave * length),
+            weave.amplitude * np.cos(wave * length),
         )
-        return self._turned(place), self._turned(first), self._turned(second)
-
-    def _turned(self, vector: tuple[Floats, Floats, Floats]) -> Floats:
-        x, y, z = vector
-        c, s = self._turn
-        return np.stack([c * x - s * y, s * x + c * y, z], axis=-1)
+        return (
+            np.stack([x, y, rise], axis=-1),
+            np.stack([-s, c, wave * fall], axis=-1),
+            np.stack([-bend * c, -bend * s, -(wave**2) * rise], axis=-1),
+        )
 
     def distance(self, points: Floats) -> tuple[Floats, Floats]:
         """Distance from the curve, and its gradient.
@@ -180,10 +216,7 @@ class SiteCurve:
         gradient
             ``(k, 3) float``, unit vectors away from the nearest point.
         """
-        _, nearest = self._tree.query(points)
-        u = self._parameters[nearest]
-        spacing = self._parameters[1] - self._parameters[0]
-        low, high = np.maximum(u - spacing, -1.0), np.minimum(u + spacing, 1.0)
+        u, low, high = self._around(points)
         for _ in range(_STEPS):
             place, first, second = self._derivatives(u)
             off = place - points
@@ -196,6 +229,59 @@ class SiteCurve:
         away = points - self.points(u)
         distance = np.sqrt(np.einsum("ij,ij->i", away, away))
         return distance, away / np.maximum(distance, np.finfo(float).tiny)[:, None]
+
+    def _around(self, points: Floats) -> tuple[Floats, Floats, Floats]:
+        """The sample nearest to each point, and between what its nearest point is sought."""
+        _, nearest = self._tree.query(points)
+        u = self._parameters[nearest]
+        low, high = np.maximum(u - self._spacing, -1.0), np.minimum(u + self._spacing, 1.0)
+        if not self._is_smooth:
+            place, after, _ = self._derivatives(u)
+            ahead = np.einsum("ij,ij->i", place - points, after) < 0
+            low = np.where((u > 0) | ((u == 0) & ahead), np.maximum(low, 0.0), low)
+            high = np.where((u < 0) | ((u == 0) & ~ahead), np.minimum(high, 0.0), high)
+        return u, low, high
+
+
+def _across(vector: Floats) -> Floats:
+    """A vector's part in plan, turned by a quarter."""
+    return np.stack([-vector[..., 1], vector[..., 0], np.zeros_like(vector[..., 0])], axis=-1)
+
+
+def _turned(vector: Floats, angle: Floats) -> Floats:
+    """A vector turned about z."""
+    c, s = np.cos(angle), np.sin(angle)
+    x, y = vector[..., 0], vector[..., 1]
+    return np.stack([c * x - s * y, s * x + c * y, vector[..., 2]], axis=-1)
+
+
+def _delayed(way: Floats, plain: Floats) -> tuple[Floats, Floats, Floats]:
+    """A length that starts to grow after a plain one, smoothly and oddly, and its derivatives.
+
+    It is ``way`` less ``plain`` further out, and nearly 0 within.
+    """
+    if not np.any(plain):
+        return way, np.ones_like(way), np.zeros_like(way)
+    after, before = (way + plain) / _GENTLE, (way - plain) / _GENTLE
+    # log cosh, up to a constant that cancels.
+    off = np.logaddexp(after, -after) - np.logaddexp(before, -before)
+    after, before = np.tanh(after), np.tanh(before)
+    return (
+        way - _GENTLE / 2 * off,
+        1 - (after - before) / 2,
+        (after**2 - before**2) / (2 * _GENTLE),
+    )
+
+
+def _way_of(length: float, plain: float) -> float:
+    """The way at which a delayed length is this."""
+    if not plain:
+        return length
+
+    def short(way: float) -> float:
+        return float(_delayed(np.asarray(way), np.asarray(plain))[0]) - length
+
+    return float(brentq(short, 0.0, length + plain + _GENTLE))
 
 
 #: The weaves of regular joints, by number of edges and key style: the tightest that a search
@@ -219,6 +305,10 @@ BUILT_IN: Mapping[str, Weave] = MappingProxyType(
 )
 
 
+#: Shortest stretch, in sides, in which arms of a joint of any gaps are known to lock.
+_LEAST_STRETCH = 3.4
+
+
 def built_in(valence: int, key: str) -> Weave:
     """The built-in weave of a regular joint.
 
@@ -232,3 +322,56 @@ def built_in(valence: int, key: str) -> Weave:
         msg = f"weave {name}: none is built in; must be one of {', '.join(BUILT_IN)}"
         raise InputError(msg)
     return BUILT_IN[name]
+
+
+def any_joint(least_gap: float) -> Weave:
+    """The weave of joints whose gaps differ; see ``docs/geometry.md``, "Any joint".
+
+    In a joint of four even gaps it is the built-in weave for four edges, in one of six that for
+    six.  Between, it goes from one to the other with the ring; the smallest gap is all woven in,
+    and wider ones in a stretch as long as that.
+
+    Parameters
+    ----------
+    least_gap
+        Smallest angle between two neighbouring edges, in radians.
+
+    Raises
+    ------
+    InputError
+        It is so small that no ring is wide enough.
+    """
+    small, large = BUILT_IN["4-loose"], BUILT_IN["6-loose"]
+    least, most = 2 * math.pi / 4 * small.ring_ratio, 2 * math.pi / 6 * large.ring_ratio
+    # The ring at which the stretch is as long as the gap.
+    growth = (most - least) / (large.ring_ratio - small.ring_ratio)
+    if least_gap >= math.pi / 2:
+        ring = small.ring_ratio
+    elif least_gap <= math.pi / 3:
+        ring = most / least_gap
+    else:
+        ring = (least - growth * small.ring_ratio) / (least_gap - growth)
+    ring = min(math.ceil(100 * ring - 1e-6) / 100, LIMITS["ring_ratio"][1])
+    if ring * least_gap < _LEAST_STRETCH:
+        need = math.degrees(_LEAST_STRETCH / ring)
+        msg = (
+            f"edges {math.degrees(least_gap):.4g} degrees apart: must be at least {need:.4g} "
+            f"for the largest ring to hold them, of ratio {ring:g}"
+        )
+        raise InputError(msg)
+    share = min((ring - small.ring_ratio) / (large.ring_ratio - small.ring_ratio), 1.0)
+    span, lift, curl, periods, stretch = (
+        (1 - share) * a + share * b
+        for a, b in zip(_free(small, least), _free(large, most), strict=True)
+    )
+    shape = ring, round(span, 3), round(lift, 3), max(0.0, round(1 - curl * ring, 3))
+    return Weave(*shape, round(periods, 3), name="any", stretch=round(stretch, 2))
+
+
+def _free(weave: Weave, stretch: float) -> tuple[float, float, float, float, float]:
+    """What of a weave does not depend on its ring.
+
+    In plan, arms keep less than the ring's curvature: what they give up is the same in any ring.
+    """
+    curl = (1 - weave.bend) / weave.ring_ratio
+    return weave.span, weave.amplitude, curl, weave.periods, stretch

@@ -5,14 +5,19 @@ Stages before this one compute; emitters after it read kits and nothing else.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from scadgen.frame.graph import Frame
 from scadgen.frame.placement import Placement
 from scadgen.interlock.path import Path
 from scadgen.solid.affine import AffineSolid, Range
 
-__all__ = ["Kit", "Way"]
+__all__ = ["RIMS", "Joint", "Kit", "Way"]
+
+#: What is done where a joint at the rim lacks edges of an inner one.
+RIMS = ("caps", "open")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -24,7 +29,7 @@ class Way:
     name
         What comes out.
     moving
-        Numbers, in the kit's `joint`, of the pieces that move as one; with their tubes, those
+        Numbers, in the joint's `pieces`, of those that move as one; with their tubes, those
         that have one.
     path
         The motion, in sides.
@@ -36,21 +41,81 @@ class Way:
 
 
 @dataclass(frozen=True, slots=True)
+class Joint:
+    """One kind of joint: what meets at each vertex that has it.
+
+    Parameters
+    ----------
+    name
+        A letter, with a number where joints of the same angles differ in their keys; empty
+        in a frame that has one kind.
+    turns
+        Direction of each edge, in degrees, ascending from that of its first key, 0.
+    keys
+        Which of the edges have a split connector; the first one does.
+    caps
+        Which of the edges have no tube wherever this joint stands.
+    connectors
+        The part that is each edge's whole connector.
+    weave
+        Name of the weave and its parameters, as `Weave.as_dict` gives them.
+    pieces
+        What meets there, assembled: half A and half B of each key, the other connectors
+        counter-clockwise, the pegs.
+    figures
+        What was measured on it, by name; plain numbers with their unit in the name.
+    verdicts
+        What was proved of it, by name; empty if it was not checked.
+    ways
+        The ways on which its pieces come apart, in order; likewise.
+    """
+
+    name: str
+    turns: tuple[float, ...]
+    keys: tuple[int, ...]
+    caps: tuple[int, ...]
+    connectors: tuple[str, ...]
+    weave: Mapping[str, float | int | str]
+    pieces: tuple[Placement, ...]
+    figures: Mapping[str, float]
+    verdicts: Mapping[str, str] = field(default_factory=dict)
+    ways: tuple[Way, ...] = ()
+
+    @property
+    def title(self) -> str:
+        """What to call it in a sentence."""
+        return f"joint {self.name}" if self.name else "the joint"
+
+    @property
+    def directions(self) -> list[float]:
+        """Direction of each edge, in radians."""
+        return [math.radians(turn) for turn in self.turns]
+
+    @property
+    def view(self) -> str:
+        """What to call it where names have no spaces."""
+        return f"joint_{self.name}" if self.name else "joint"
+
+    @property
+    def half_parts(self) -> frozenset[str]:
+        """The parts that are halves."""
+        return frozenset(p.part for p in self.pieces if p.role in ("half_a", "half_b"))
+
+
+@dataclass(frozen=True, slots=True)
 class Kit:
     """Everything generated for one frame.
 
     Parameters
     ----------
     frame
-        ``hexagonal`` or ``square``.
+        Its name.
     key
         One of `KEYS`.
     rows, columns
-        Cells of the frame (hexagons, squares), at least 1.
+        Cells of a hexagonal or square frame, at least 1, which can be set later; otherwise 0.
     detail
         Name of the detail level.
-    weave
-        Name of the weave and its parameters, as `Weave.as_dict` gives them.
     command
         The command line that makes this kit again.
     values
@@ -58,15 +123,15 @@ class Kit:
     ranges
         What each live parameter may be; every one in `values` has at least one.
     parts
-        The affine solids by name, in the order of `PARTS`.
-    joint
-        The pieces that meet at one vertex, assembled; the key's edge along +x.
-    figures
-        What was measured on the kit, by name; plain numbers with their unit in the name.
-    verdicts
-        What was proved of its joint, by name; empty for a kit that was not checked.
-    ways
-        The ways on which the pieces of its joint come apart, in order; likewise.
+        The affine solids by name, edge elements first.
+    joints
+        The kinds of joints.
+    placements
+        Where everything stands.
+    graph
+        The frame where it has no rows and columns, in mm.
+    rim
+        Whether joints at its rim have caps where they lack edges; one of `RIMS`.
     """
 
     frame: str
@@ -74,17 +139,16 @@ class Kit:
     rows: int
     columns: int
     detail: str
-    weave: Mapping[str, float | int | str]
     command: str
     values: Mapping[str, float]
     ranges: tuple[Range, ...]
     parts: Mapping[str, AffineSolid]
-    joint: tuple[Placement, ...]
-    figures: Mapping[str, float]
-    verdicts: Mapping[str, str] = field(default_factory=dict)
-    ways: tuple[Way, ...] = ()
+    joints: tuple[Joint, ...]
+    placements: tuple[Placement, ...]
+    graph: Frame | None = None
+    rim: str = "caps"
 
     @property
-    def valence(self) -> int:
-        """Number of edges at a vertex."""
-        return 1 + sum(place.part == "connector" for place in self.joint)
+    def proved(self) -> bool:
+        """Whether something was proved of every joint."""
+        return all(joint.verdicts for joint in self.joints)

@@ -13,13 +13,13 @@ from scadgen.element.squares import Key
 from scadgen.errors import InputError
 from scadgen.solid.affine import Linear, Range
 
-__all__ = ["WALL", "check_values", "ranges"]
+__all__ = ["TUBE", "WALL", "check_values", "edge_range", "ranges"]
 
 #: Thinnest wall anywhere beside a hole, in sides; 0.4 mm, one line of a nozzle, at side 10 mm.
 WALL = 0.04
 
 #: Shortest tube between two joints, in sides.
-_TUBE = 0.5
+TUBE = 0.5
 
 #: What rounding of decimal input may take a value past its bound, in mm.
 _SLACK = 1e-9
@@ -78,6 +78,30 @@ def ranges(key: Key, clearance_limit: float, hole: float) -> tuple[Range, ...]:
     return tuple(found)
 
 
+def edge_range(near: tuple[Key, bool], far: tuple[Key, bool], times: float) -> Range:
+    """Of the edge length, for an element that is some times as long.
+
+    Parameters
+    ----------
+    near, far
+        The keys of the joints at its ends, and whether it has a socket there.
+    times
+        Its length in edge lengths.
+    """
+    sides, others = TUBE, dict.fromkeys(("clearance", "peg_length", "peg_clearance"), 0.0)
+    for key, socket in (near, far):
+        sides += key.pad if socket else key.tube_start
+        for name in ("peg_length", "peg_clearance") if socket else ("clearance",):
+            others[name] += 1.0
+    terms = {"side": sides, **{name: factor for name, factor in others.items() if factor}}
+    return Range(
+        "edge_length",
+        Linear({name: factor / times for name, factor in terms.items()}),
+        Linear({}, 2000.0 / times),
+        "two joints need room, and half a side of tube between them",
+    )
+
+
 def _fixed(key: Key) -> list[Range]:
     depth = key.tube_start - key.pad - 2 * WALL if key.bored else key.depth - WALL
     return [
@@ -89,7 +113,7 @@ def _fixed(key: Key) -> list[Range]:
         ),
         Range(
             "edge_length",
-            Linear({"side": 2 * key.tube_start + _TUBE, "clearance": 2.0}),
+            Linear({"side": 2 * key.tube_start + TUBE, "clearance": 2.0}),
             Linear({}, 2000.0),
             "two joints need room, and half a side of tube between them",
         ),
@@ -107,7 +131,7 @@ def _loose(key: Key, hole: float) -> list[Range]:
         ),
         Range(
             "edge_length",
-            Linear({"side": 2 * key.pad + _TUBE, "peg_length": 2.0, "peg_clearance": 2.0}),
+            Linear({"side": 2 * key.pad + TUBE, "peg_length": 2.0, "peg_clearance": 2.0}),
             Linear({}, 2000.0),
             "the sockets at a tube's two ends must not meet",
         ),

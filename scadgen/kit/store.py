@@ -17,12 +17,13 @@ import numpy as np
 
 from scadgen import __version__
 from scadgen.errors import InputError, InvariantError, KitError
+from scadgen.frame.graph import make_frame
 from scadgen.frame.layout import LAYOUTS, bill, joint
-from scadgen.frame.placement import Placement
+from scadgen.frame.placement import PARTS, Placement
 from scadgen.interlock.path import Path
-from scadgen.kit.build import VALENCE
-from scadgen.kit.model import Kit, Way
+from scadgen.kit.model import Joint, Kit, Way
 from scadgen.kit.ranges import check_values
+from scadgen.kit.request import VALENCE
 from scadgen.solid.affine import PARAMETERS, AffineSolid, Linear, Range
 from scadgen.solid.mesh import edge_faults, volume
 
@@ -39,7 +40,7 @@ __all__ = [
 ]
 
 FORMAT = "scadgen-kit"
-VERSION = 1
+VERSION = 2
 
 #: Decimals of a way's numbers, in sides and radians.
 WAY_DECIMALS = 6
@@ -52,7 +53,7 @@ def dumps(kit: Kit) -> str:
         "version": VERSION,
         "generator": f"scadgen {__version__}",
         "command": kit.command,
-        **summary(kit),
+        **_summary(kit, ways=True),
         "ranges": [
             {
                 "parameter": r.parameter,
@@ -62,12 +63,12 @@ def dumps(kit: Kit) -> str:
             }
             for r in kit.ranges
         ],
-        "joint": [
-            {"part": p.part, "at": list(p.at), "turn": p.turn, "flip": p.flip, "role": p.role}
-            for p in kit.joint
-        ],
-        "ways": [way_entry(way) for way in kit.ways],
     }
+    if kit.graph is not None:
+        vertices, edges = kit.graph.vertices.tolist(), kit.graph.edges.tolist()
+        document["graph"] = {"name": kit.graph.name, "vertices": vertices, "edges": edges}
+        document["rim"] = kit.rim
+        document["placements"] = [_placement(p) for p in kit.placements]
     head = json.dumps(document, indent=1, allow_nan=False).removesuffix("\n}")
     parts = ",\n".join(
         f'  "{name}": {json.dumps(_solid(solid), separators=(",", ":"), allow_nan=False)}'
@@ -77,20 +78,42 @@ def dumps(kit: Kit) -> str:
 
 
 def summary(kit: Kit) -> dict[str, Any]:
-    """What a kit is, without its solids, as JSON values."""
+    """What a kit is, without its solids and its ways, as JSON values."""
+    return _summary(kit, ways=False)
+
+
+def _summary(kit: Kit, *, ways: bool) -> dict[str, Any]:
     return {
         "frame": kit.frame,
         "key": kit.key,
         "rows": kit.rows,
         "columns": kit.columns,
         "detail": kit.detail,
-        "weave": dict(kit.weave),
         "values": dict(kit.values),
-        "bill": bill(LAYOUTS[kit.frame](kit.rows, kit.columns, kit.key)),
-        "figures": dict(kit.figures),
-        "proved": bool(kit.verdicts),
-        "verdicts": dict(kit.verdicts),
+        "bill": bill(kit.placements, kit.parts),
+        "proved": kit.proved,
+        "joints": [_joint_entry(joint, ways=ways) for joint in kit.joints],
     }
+
+
+def _joint_entry(joint: Joint, *, ways: bool) -> dict[str, Any]:
+    """A kind of joint as JSON values."""
+    entry: dict[str, Any] = {
+        "name": joint.name,
+        "turns": list(joint.turns),
+        "keys": list(joint.keys),
+        "caps": list(joint.caps),
+        "connectors": list(joint.connectors),
+        "weave": dict(joint.weave),
+        "pieces": [_placement(p) for p in joint.pieces],
+        "figures": dict(joint.figures),
+        "verdicts": dict(joint.verdicts),
+    }
+    return entry | ({"ways": [way_entry(way) for way in joint.ways]} if ways else {})
+
+
+def _placement(p: Placement) -> dict[str, Any]:
+    return {"part": p.part, "at": list(p.at), "turn": p.turn, "flip": p.flip, "role": p.role}
 
 
 def way_entry(way: Way) -> dict[str, Any]:
@@ -189,25 +212,49 @@ def _check_sense(kit: Kit, document: dict[str, Any]) -> None:
     ValueError
         They do not: says which.
     """
-    if (*kit.joint,) != joint(VALENCE[kit.frame], kit.key):
-        msg = "the joint is not the frame's"
-        raise ValueError(msg)
     if document["bill"] != summary(kit)["bill"]:
         msg = "the bill is not the frame's"
         raise ValueError(msg)
-    if document["proved"] != bool(kit.verdicts):
+    if document["proved"] != kit.proved:
         msg = "it says that it is proved, or not, and the verdicts say otherwise"
         raise ValueError(msg)
-    for way in kit.ways:
-        if not {*way.moving} < {*range(len(kit.joint))}:
-            msg = f"way {way.name!r}: moves pieces that the joint lacks"
-            raise ValueError(msg)
+    for one in kit.joints:
+        _check_joint(one)
+    _check_names(kit)
     for name, solid in kit.parts.items():
         if not {*solid.coefficients} <= {*kit.values}:
             msg = f"part {name}: moved by a parameter that the kit lacks"
             raise ValueError(msg)
         if not volume(solid.points(kit.values), solid.triangles) > 0:
             msg = f"part {name}: inside out"
+            raise ValueError(msg)
+
+
+def _check_names(kit: Kit) -> None:
+    """Refuse a kit whose parts are not those that its frame and its joints need."""
+    if kit.graph is None:
+        if len(kit.joints) != 1 or kit.joints[0].pieces != joint(VALENCE[kit.frame], kit.key):
+            msg = "the joint is not the frame's"
+            raise ValueError(msg)
+        if set(kit.parts) != set(PARTS):
+            msg = f"parts must be {', '.join(PARTS)}"
+            raise ValueError(msg)
+    used = {p.part for p in kit.placements}
+    used.update(*({p.part for p in one.pieces} | {*one.connectors} for one in kit.joints))
+    if missing := used - set(kit.parts):
+        msg = f"part {min(missing)}: is needed and is not there"
+        raise ValueError(msg)
+
+
+def _check_joint(one: Joint) -> None:
+    """Refuse a kind of joint whose lists do not belong together."""
+    count = len(one.turns)
+    if len(one.connectors) != count or not {*one.keys, *one.caps} <= {*range(count)}:
+        msg = f"{one.title}: its lists do not belong together"
+        raise ValueError(msg)
+    for way in one.ways:
+        if not {*way.moving} < {*range(len(one.pieces))}:
+            msg = f"way {way.name!r}: moves pieces that the joint lacks"
             raise ValueError(msg)
 
 
@@ -259,13 +306,22 @@ def _check_schema(document: dict[str, Any]) -> None:
 
 def _kit(document: dict[str, Any]) -> Kit:
     parts = {name: _read_solid(name, entry) for name, entry in document["parts"].items()}
+    frame, key = document["frame"], document["key"]
+    rows, columns = int(document["rows"]), int(document["columns"])
+    graph = document.get("graph")
+    if graph is None:
+        if frame not in LAYOUTS:
+            msg = f"frame {frame!r}: has no graph, and is not one of {', '.join(LAYOUTS)}"
+            raise ValueError(msg)
+        placements = LAYOUTS[frame](rows, columns, key)
+    else:
+        placements = tuple(map(_read_placement, document["placements"]))
     return Kit(
-        frame=document["frame"],
-        key=document["key"],
-        rows=int(document["rows"]),
-        columns=int(document["columns"]),
+        frame=frame,
+        key=key,
+        rows=rows,
+        columns=columns,
         detail=document["detail"],
-        weave=document["weave"],
         command=document["command"],
         values={p: document["values"][p] for p in PARAMETERS if p in document["values"]},
         ranges=tuple(
@@ -273,14 +329,30 @@ def _kit(document: dict[str, Any]) -> Kit:
             for r in document["ranges"]
         ),
         parts=parts,
-        joint=tuple(
-            Placement(p["part"], (p["at"][0], p["at"][1]), p["turn"], p["flip"], p["role"])
-            for p in document["joint"]
-        ),
-        figures=document["figures"],
-        verdicts=document["verdicts"],
-        ways=tuple(read_way(entry) for entry in document["ways"]),
+        joints=tuple(map(_read_joint, document["joints"])),
+        placements=placements,
+        graph=graph and make_frame(graph["name"], graph["vertices"], graph["edges"]),
+        rim=document.get("rim", "caps"),
     )
+
+
+def _read_joint(entry: Mapping[str, Any]) -> Joint:
+    return Joint(
+        name=entry["name"],
+        turns=tuple(entry["turns"]),
+        keys=tuple(entry["keys"]),
+        caps=tuple(entry["caps"]),
+        connectors=tuple(entry["connectors"]),
+        weave=entry["weave"],
+        pieces=tuple(map(_read_placement, entry["pieces"])),
+        figures=entry["figures"],
+        verdicts=entry["verdicts"],
+        ways=tuple(read_way(way) for way in entry["ways"]),
+    )
+
+
+def _read_placement(p: Mapping[str, Any]) -> Placement:
+    return Placement(p["part"], (p["at"][0], p["at"][1]), p["turn"], p["flip"], p["role"])
 
 
 def _read_solid(name: str, entry: Mapping[str, Any]) -> AffineSolid:

@@ -16,25 +16,38 @@ from scadgen.solid.affine import Floats, Ints
 if TYPE_CHECKING:
     from manifold3d import Manifold
 
-__all__ = ["overlap_volume", "smallest_gap"]
+__all__ = ["overlap_volume", "smallest_gap", "solid"]
 
 
-def _manifold(points: Floats, triangles: Ints) -> Manifold:
-    """Hand a mesh over; what manifold3d refuses or finds inside out is a bug here."""
+def solid(points: Floats, triangles: Ints) -> Manifold:
+    """A mesh as manifold3d takes it.
+
+    Parameters
+    ----------
+    points
+        ``(v, 3) float``, mm.
+    triangles
+        ``(m, 3) int``, closed and oriented.
+
+    Raises
+    ------
+    InvariantError
+        If manifold3d refuses the mesh or finds it inside out, which is a bug here.
+    """
     from manifold3d import Error, Manifold, Mesh64  # slow to import
 
     mesh = Mesh64(
         vert_properties=np.ascontiguousarray(points, dtype=np.float64),
         tri_verts=np.ascontiguousarray(triangles, dtype=np.uint64),
     )
-    solid = Manifold(mesh)
-    if solid.status() != Error.NoError:
-        msg = f"oriented 2-manifold: manifold3d refuses the mesh, {solid.status().name}"
+    found = Manifold(mesh)
+    if found.status() != Error.NoError:
+        msg = f"oriented 2-manifold: manifold3d refuses the mesh, {found.status().name}"
         raise InvariantError(msg)
-    if not solid.volume() > 0:
-        msg = f"positive volume: manifold3d finds {solid.volume():.6g} mm3"
+    if not found.volume() > 0:
+        msg = f"positive volume: manifold3d finds {found.volume():.6g} mm3"
         raise InvariantError(msg)
-    return solid
+    return found
 
 
 def smallest_gap(
@@ -66,7 +79,7 @@ def smallest_gap(
     if not 0 < limit < np.inf:
         msg = f"limit of the gap is {limit} mm; it must be above 0 and finite"
         raise InputError(msg)
-    one, other = _manifold(points_a, triangles_a), _manifold(points_b, triangles_b)
+    one, other = solid(points_a, triangles_a), solid(points_b, triangles_b)
     return float(one.min_gap(other, limit))
 
 
@@ -92,5 +105,5 @@ def overlap_volume(
     InvariantError
         If one of the meshes is not a solid.
     """
-    common = _manifold(points_a, triangles_a) ^ _manifold(points_b, triangles_b)
+    common = solid(points_a, triangles_a) ^ solid(points_b, triangles_b)
     return float(common.volume())

@@ -12,7 +12,7 @@ from scadgen.interlock.bodies import bodies, open_edges
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.crossing import crossing_faces
 from scadgen.solid.mesh import FLAT, heights, volume
-from scadgen.tools.stl import read_stl
+from scadgen.tools.stl import nothing_inside, read_stl
 
 __all__ = ["FORMATS", "read_bodies", "read_parts"]
 
@@ -47,8 +47,8 @@ def read_parts(paths: Sequence[Path]) -> dict[str, _Mesh]:
     Raises
     ------
     InputError
-        A file that cannot be read or has no faces, a part that is not closed, is inside out
-        or crosses itself, parts of one name, or of sizes that cannot be in one unit.
+        A file that cannot be read or has no faces, a part that is not closed, is flat, is
+        inside out or crosses itself, parts of one name, or of sizes that cannot be in one unit.
     """
     parts: dict[str, _Mesh] = {}
     for path in paths:
@@ -139,7 +139,7 @@ def _welded(path: Path, points: Floats, triangles: Ints) -> _Mesh:
 
 
 def _check_body(path: Path, points: Floats, triangles: Ints) -> None:
-    """Refuse a body that is inside out or crosses itself."""
+    """Refuse a body that is flat, is inside out or crosses itself."""
     size = float(np.linalg.norm(np.ptp(points, axis=0)))
     sound = triangles[heights(points, triangles) > FLAT * size]
     crossing = crossing_faces(points, sound, touch=-_DEEP * size)
@@ -148,7 +148,8 @@ def _check_body(path: Path, points: Floats, triangles: Ints) -> None:
         msg = f"{path}: crosses itself: {len(crossing)} pairs of faces, one near {place}"
         raise InputError(msg)
     if not (enclosed := volume(points, triangles)) > 0:
-        msg = f"{path}: volume {enclosed:.6g}: must be above 0; its faces look inwards"
+        why = nothing_inside(points, enclosed)
+        msg = f"{path}: volume {enclosed:.6g}: must be above 0; {why}"
         raise InputError(msg)
 
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from scadgen.errors import ToolError
 from scadgen.solid.affine import Floats, Ints
-from scadgen.solid.mesh import edge_faults, volume, weld_float32
+from scadgen.solid.mesh import FLAT, edge_faults, volume, weld_float32
 
-__all__ = ["check_stl", "read_stl"]
+__all__ = ["check_stl", "nothing_inside", "read_stl"]
 
 #: Length of the header, and of the count behind it, in bytes.
 _HEADER = 80
@@ -72,7 +72,7 @@ def check_stl(path: Path) -> float:
     Raises
     ------
     ToolError
-        If the file is broken, empty, not watertight, or inside out.
+        If the file is broken, empty, not watertight, flat, or inside out.
     """
     points, triangles = read_stl(path)
     if not len(triangles):
@@ -83,6 +83,21 @@ def check_stl(path: Path) -> float:
         msg = f"{path}: not watertight: {len(faults)} faulty edges, the first at {place} mm"
         raise ToolError(msg)
     if not (enclosed := volume(points, triangles)) > 0:
-        msg = f"{path}: volume = {enclosed:.6g} mm3: must be above 0; the faces look inwards"
+        why = nothing_inside(points, enclosed)
+        msg = f"{path}: volume = {enclosed:.6g} mm3: must be above 0; {why}"
         raise ToolError(msg)
     return enclosed
+
+
+def nothing_inside(points: Floats, enclosed: float) -> str:
+    """Say why a closed mesh encloses no volume above 0.
+
+    Parameters
+    ----------
+    points
+        ``(v, 3) float``, mm.
+    enclosed
+        Its volume, in mm3.
+    """
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    return "it is flat" if enclosed >= -FLAT * size**3 else "its faces look inwards"

@@ -65,8 +65,18 @@ def inspect(mod: Path) -> Installed:
     ----------
     mod
         FreeCAD's folder of addons.
+
+    Raises
+    ------
+    InputError
+        It cannot be looked at.
     """
-    where, source = mod / NAME, workbench()
+    with _refusing(mod, "looked at"):
+        return _inspected(mod / NAME, workbench())
+
+
+def _inspected(where: Path, source: Path) -> Installed:
+    """What there is at a place."""
     if where.is_symlink():
         target = where.readlink()
         if Path(os.path.realpath(where)) != source.resolve():
@@ -107,9 +117,10 @@ def install(mod: Path, *, copy: bool) -> Installed:
                 _copy(workbench(), stage)
             else:
                 stage.symlink_to(workbench(), target_is_directory=True)
-            if found.kind != "none":
-                found.where.rename(Path(folder) / "old")
-            stage.rename(found.where)
+            if found.kind == "none":
+                stage.rename(found.where)
+            else:
+                _swap(stage, found.where, Path(folder) / "old")
     return inspect(mod)
 
 
@@ -154,15 +165,26 @@ def _refuse_others(found: Installed) -> None:
 
 
 @contextmanager
-def _refusing(mod: Path) -> Iterator[None]:
+def _refusing(mod: Path, what: str = "changed") -> Iterator[None]:
+    """Turn what the system says into one line: that the folder cannot be `what`."""
     try:
         yield
     except OSError as error:
         works = "name a writable folder with --mod FOLDER"
         if os.name == "nt":
             works = "use --copy, as Windows may forbid links, or " + works
-        msg = f"{mod}: cannot be changed ({error.strerror}); {works}"
+        msg = f"{mod}: cannot be {what} ({error.strerror}); {works}"
         raise InputError(msg) from error
+
+
+def _swap(stage: Path, where: Path, old: Path) -> None:
+    """Put the new workbench in the place of the old one, which comes back if that fails."""
+    where.rename(old)
+    try:
+        stage.rename(where)
+    except BaseException:  # an interrupt as well
+        old.rename(where)
+        raise
 
 
 def _copy(source: Path, target: Path) -> None:

@@ -85,7 +85,11 @@ def figures(wish: Wish, weave: Weave) -> Figures:
     """Look at a weave quickly: its figures if whole connectors lock, at detail `draft`."""
     try:
         kit = build_joint(wish.valence, weave, wish.key, "draft")
-        return _measured(wish, kit) if connectors_lock(kit).good else Figures(refused="loose")
+        return (
+            _measured(wish, kit)
+            if connectors_lock(kit, kit.joints[0]).good
+            else Figures(refused="loose")
+        )
     except ScadgenError as error:
         return Figures(refused=str(error))
 
@@ -103,9 +107,10 @@ def proof(wish: Wish, weave: Weave) -> Figures:
 
 
 def _measured(wish: Wish, kit: Kit) -> Figures:
-    arm, room = kit.figures["thinnest_arm_sides"], kit.figures["clearance_limit_sides"]
+    (joint,) = kit.joints
+    arm, room = joint.figures["thinnest_arm_sides"], joint.figures["clearance_limit_sides"]
     if arm < wish.arm:
         return Figures(refused=f"arms of {arm:.2f} sides")
     if room < _ROOM:
         return Figures(refused=f"room for a clearance of {room:g} sides only")
-    return Figures(round(largest_play(kit), 3), round(arm, 4))
+    return Figures(round(largest_play(kit, joint), 3), round(arm, 4))

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import FreeCAD as App
 import FreeCADGui as Gui
+import Part
 from PySide import QtCore, QtGui
 
 #: Where things are: the kit, the engine, a document that has lost its behaviour, a folder.
@@ -246,7 +247,7 @@ def cancel_leaves_nothing():
     doc = App.newDocument("Empty")
     ok()
     yield number
-    yield lambda: panel_text() == "computing the joint"
+    yield lambda: panel_text() == "computing the joints"
     run = number()
     assert not box_button(QtGui.QDialogButtonBox.Ok).isEnabled()
     assert field(QtGui.QProgressBar, "progress").isVisible()
@@ -435,6 +436,23 @@ def a_check_that_the_engine_cannot_make_is_said_so():
     settings().SetString("Engine", str(PLACES["engine"]))
 
 
+def a_stale_shape_is_found():
+    half = App.ActiveDocument.Half
+    shape, half.Shape = half.Shape.copy(), Part.makeBox(1, 2, 3)
+    settings().SetString("Engine", str(PLACES["folder"] / "nowhere"))
+    yield from press("Check")
+    yield lambda: panel("ScadgenCheck")
+    table = field(QtGui.QTableWidget, "table")
+    yield table.rowCount
+    rows = [[table.item(r, c).text() for c in range(4)] for r in range(table.rowCount())]
+    assert len(rows) == 1, rows
+    assert rows[0][:3] == ["FAILED", "Half has the shape that its values make", "6 mm3"], rows
+    box_button(QtGui.QDialogButtonBox.Close).click()
+    yield is_closed
+    half.Shape = shape
+    settings().SetString("Engine", str(PLACES["engine"]))
+
+
 def closing_a_check_stops_it():
     yield from press("Check")
     yield number
@@ -447,6 +465,7 @@ def closing_a_check_stops_it():
 def a_kit_is_checked():
     doc = App.ActiveDocument
     text = json.loads(doc.Kit.Data)
+    text["joints"][0]["weave"]["name"] = "../elsewhere"
     moved = text["parts"]["half"]["points"]["side"]
     moved[0][0] += 1e-6
     doc.Kit.Data = json.dumps(text)
@@ -467,6 +486,7 @@ def a_kit_is_checked():
     chosen = {o.Name for o in Gui.Selection.getSelection()}
     assert chosen == {"Half", *(o.Name for o in doc.Half.InList if o.TypeId == "App::Link")}
     assert "Joint_half_a" in chosen
+    assert not (PLACES["folder"].parent / "tmp" / "elsewhere.json").exists()
     picture("check", width=640)
     box_button(QtGui.QDialogButtonBox.Close).click()
     yield is_closed
@@ -481,10 +501,10 @@ def modal(kind):
 def kits_are_opened_or_refused():
     doc = App.newDocument("Opened")
     newer = json.loads(PLACES["kit"].read_text())
-    newer["version"] = 2
+    newer["version"] = 3
     for name, text, words in (
         ("broken.json", PLACES["kit"].read_text()[:5000], "not a sound kit: truncated or not JSON"),
-        ("newer.json", json.dumps(newer), "kit version 2: this reads version 1; update it"),
+        ("newer.json", json.dumps(newer), "kit version 3: this reads version 2; update it"),
         ("kit.json", PLACES["kit"].read_text(), ""),
     ):
         (PLACES["folder"] / name).write_text(text)
@@ -562,6 +582,7 @@ STEPS = (
     assemblies_are_pulled_apart,
     files_are_written,
     a_check_that_the_engine_cannot_make_is_said_so,
+    a_stale_shape_is_found,
     closing_a_check_stops_it,
     a_kit_is_checked,
     kits_are_opened_or_refused,

@@ -70,6 +70,16 @@ def shapes(macro, settings, judged, folder):
     return found
 
 
+def opens(macro):
+    """Facts of all parts, and the volumes of joints and frame, as the macro leaves them."""
+    document = opened(macro)
+    return {
+        "valid": validity(document),
+        "parts": {n: facts(obj) for n, obj in parts_of(document).items()},
+        "wholes": {o.Name: Part.getShape(o).Volume for o in document.findObjects("App::Part")},
+    }
+
+
 def assembly(macro, wider):
     document = opened(macro)
     found = {
@@ -146,4 +156,11 @@ def looks(macro, picture):
     return [{str(hue): hues.count(hue) for hue in set(hues)}, shown]
 
 
-TASKS = {"looks": looks, "shapes": shapes, "assembly": assembly, "life": life, "beside": beside}
+TASKS = {
+    "looks": looks,
+    "opens": opens,
+    "shapes": shapes,
+    "assembly": assembly,
+    "life": life,
+    "beside": beside,
+}

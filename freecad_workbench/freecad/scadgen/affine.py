@@ -15,11 +15,12 @@ from typing import Any
 
 from freecad.scadgen.faces import Face, Point, Triangle, edges_of, faces
 from freecad.scadgen.layout import LAYOUTS
+from freecad.scadgen.sense import nonsense
 
 __all__ = ["KitData", "KitError", "Solid", "parse_kit", "read_kit"]
 
 #: Format and version of ``kit.json`` that is read here.
-_FORMAT, _VERSION = "scadgen-kit", 1
+_FORMAT, _VERSION = "scadgen-kit", 2
 
 #: What rounding of decimal input may take a value past its bound, in mm.
 _SLACK = 1e-9
@@ -96,16 +97,26 @@ class KitData:
         self.columns: int = document["columns"]
         self.command: str = document["command"]
         self.values: dict[str, float] = {n: float(v) for n, v in document["values"].items()}
-        self.joint: list[dict[str, Any]] = document["joint"]
+        self.joints: list[dict[str, Any]] = document["joints"]
+        self.is_grid: bool = "graph" not in document
+        self._placements: list[dict[str, Any]] = document.get("placements", [])
         self.bill: dict[str, int] = document["bill"]
         self.ranges: list[dict[str, Any]] = document["ranges"]
         self.parts = {
             name: _solid(name, entry, self.values) for name, entry in document["parts"].items()
         }
 
+    @property
+    def joint(self) -> list[dict[str, Any]]:
+        """The pieces of the first kind of joint, assembled; positions in edge lengths."""
+        pieces: list[dict[str, Any]] = self.joints[0]["pieces"]
+        return pieces
+
     @cached_property
     def placements(self) -> list[dict[str, Any]]:
-        """Where every part of the frame stands, as in `joint`; positions in edge lengths."""
+        """Where every part of the frame stands, as in `joint`."""
+        if not self.is_grid:
+            return self._placements
         return LAYOUTS[self.frame](self.rows, self.columns, self.key)
 
     def limits(self, name: str, values: Mapping[str, float]) -> tuple[float, float]:
@@ -174,28 +185,26 @@ def parse_kit(text: str) -> KitData:
         )
         raise KitError(msg)
     try:
-        kit = KitData(document)
-        _check_sense(kit)
+        return _sound(document)
     except KeyError as error:
         msg = f"not a sound kit: {error} is missing; {again}"
         raise KitError(msg) from error
-    except (AttributeError, TypeError, ValueError, IndexError) as error:
+    except (AttributeError, TypeError, ValueError, IndexError, OverflowError) as error:
         msg = f"not a sound kit: {error}; {again}"
         raise KitError(msg) from error
-    return kit
 
 
-def _check_sense(kit: KitData) -> None:
-    """Refuse what would fail later.
+def _sound(document: Mapping[str, Any]) -> KitData:
+    """A kit whose names and numbers make sense, and whose live parameters are in their ranges.
 
     Raises
     ------
     ValueError
-        A number or a name makes no sense: says which.
+        They are not: says which.
     """
-    if kit.frame not in LAYOUTS:
-        msg = f"frame = {kit.frame!r}: must be one of {', '.join(LAYOUTS)}"
-        raise ValueError(msg)
+    for said in nonsense(document):
+        raise ValueError(said)
+    kit = KitData(document)
     ranged = {r["parameter"] for r in kit.ranges}
     for name in kit.values:
         if name not in ranged:
@@ -203,10 +212,7 @@ def _check_sense(kit: KitData) -> None:
             raise ValueError(msg)
     for said in kit.check(kit.values):
         raise ValueError(said)
-    for placement in kit.joint:
-        if placement["part"] not in kit.parts or not {"at", "turn", "flip", "role"} <= {*placement}:
-            msg = f"the joint has no part {placement['part']}, or no place for it"
-            raise ValueError(msg)
+    return kit
 
 
 def _solid(name: str, entry: Mapping[str, Any], values: Mapping[str, float]) -> Solid:

@@ -7,8 +7,8 @@ from typing import Any
 import FreeCAD as App
 
 from freecad.scadgen.affine import KitError
-from freecad.scadgen.kit_object import MOST_CELLS, data_of
-from freecad.scadgen.layout import LAYOUTS
+from freecad.scadgen.kit_object import data_of
+from freecad.scadgen.layout import LAYOUTS, MOST_CELLS
 from freecad.scadgen.names import COLOURS
 from freecad.scadgen.properties import DERIVED, HIDDEN, Scripted, add
 from freecad.scadgen.shape import placed

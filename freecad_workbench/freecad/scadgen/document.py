@@ -18,7 +18,7 @@ from typing import Any
 
 import FreeCAD as App
 
-from freecad.scadgen.affine import parse_kit
+from freecad.scadgen.affine import KitError, parse_kit
 from freecad.scadgen.assembly_object import AssemblyObject, parts_of
 from freecad.scadgen.kit_object import KitObject
 from freecad.scadgen.names import FRAMES, KINDS, ROLE_LABELS
@@ -100,9 +100,17 @@ def add_kit(doc: Any, text: str) -> Any:
     Raises
     ------
     KitError
-        The text is broken, or of another version.  Nothing is added.
+        The text is broken, of another version, or of a frame without rows and columns.
+        Nothing is added.
     """
-    frame = parse_kit(text).frame
+    data = parse_kit(text)
+    frame = data.frame
+    if not data.is_grid:
+        msg = (
+            f"frame {frame}: has no rows and columns to set; run the kit's macro, "
+            f"{frame}.FCMacro, which opens it as it is"
+        )
+        raise KitError(msg)
     kit = doc.addObject("App::FeaturePython", "Kit")
     KitObject(kit, text, density())
     kit.Label = translate("Scadgen", "Kit: {}").format(

@@ -10,7 +10,7 @@ import FreeCAD as App
 
 from freecad.scadgen.affine import KitData, parse_kit
 from freecad.scadgen.figures import mass, volume
-from freecad.scadgen.layout import LAYOUTS
+from freecad.scadgen.layout import LAYOUTS, MOST_CELLS
 from freecad.scadgen.names import KINDS
 from freecad.scadgen.properties import (
     DERIVED,
@@ -23,10 +23,7 @@ from freecad.scadgen.properties import (
     values_of,
 )
 
-__all__ = ["MOST_CELLS", "KitObject", "bill_of", "data_of"]
-
-#: Most rows or columns of a frame.
-MOST_CELLS = 50
+__all__ = ["KitObject", "bill_of", "data_of"]
 
 QT_TRANSLATE_NOOP = App.Qt.QT_TRANSLATE_NOOP
 

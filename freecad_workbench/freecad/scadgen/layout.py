@@ -1,4 +1,4 @@
-"""Where every part of a frame stands: the same rules as scadgen's own layouts."""
+"""Where every part of a frame stands, and what there is: the same rules as scadgen's own."""
 
 from __future__ import annotations
 
@@ -6,7 +6,31 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Any, Dict, List
 
-__all__ = ["LAYOUTS", "hexagonal", "square"]
+__all__ = ["KEYS", "LAYOUTS", "MOST_CELLS", "PARAMETERS", "PARTS", "ROLES", "hexagonal", "square"]
+
+#: Key styles.
+KEYS = ("fixed", "loose")
+
+#: The parts of a frame with rows and columns.
+PARTS = ("basic", "one_sided", "two_sided", "connector", "half", "peg", "tube")
+
+#: What a placed piece is to the viewer.
+ROLES = ("row", "cross", "half_a", "half_b", "cap", "peg")
+
+#: The live parameters; a kit without a bore lacks the last.
+PARAMETERS = (
+    "side",
+    "edge_length",
+    "clearance",
+    "peg_width",
+    "peg_length",
+    "peg_clearance",
+    "peg_chamfer",
+    "bore",
+)
+
+#: Most rows or columns of a frame.
+MOST_CELLS = 50
 
 Placements = List[Dict[str, Any]]
 

@@ -59,11 +59,11 @@ class PartOfKit:
 
 
 class PiecesOfFrame:
-    """All pieces of a frame that have the same role: one link with many places."""
+    """All pieces of a frame of one part and role: one link with many places."""
 
     def __init__(self, obj: Any, kit: KitData) -> None:
-        role = getattr(obj, _MARK)
-        self._places = [place for place in kit.placements if place["role"] == role]
+        role, _, part = getattr(obj, _MARK).partition(" ")
+        self._places = [p for p in kit.placements if (p["role"], p["part"]) == (role, part)]
         obj.ElementCount = len(self._places)
         _attach(self, obj)
 
@@ -117,11 +117,13 @@ def _new(kit: KitData, mark: str) -> Any:
     document.recompute()
     parts = _parts(document, kit, sheet)
     document.recompute()
-    box = parts["connector"].Shape.BoundBox
-    reach = max(box.XMax, -box.XMin, box.YMax)
+    boxes = [parts[name].Shape.BoundBox for joint in kit.joints for name in joint["connectors"]]
+    reach = max(max(box.XMax, -box.XMin, box.YMax) for box in boxes)
     _in_a_row(parts.values(), -reach - _ROOM)
-    _joint(document, kit, parts)
-    _frame(document, kit, parts, sheet, 2 * reach + _ROOM)
+    for number, joint in enumerate(kit.joints):
+        _joint(document, kit, joint, parts, number * (2 * reach + _ROOM))
+    low = min(place["at"][1] for place in kit.placements) * kit.values["edge_length"]
+    _frame(document, kit, parts, sheet, 2 * reach + _ROOM - low)
     return document
 
 
@@ -195,11 +197,14 @@ def _in_a_row(parts: Iterable[Any], top: float) -> None:
         top -= box.YLength + _ROOM
 
 
-def _joint(document: Any, kit: KitData, parts: Mapping[str, Any]) -> None:
-    """The pieces that meet at one vertex, assembled."""
-    group = document.addObject("App::Part", "Joint")
+def _joint(
+    document: Any, kit: KitData, joint: Mapping[str, Any], parts: Mapping[str, Any], x: float
+) -> None:
+    """The pieces of a kind of joint, assembled."""
+    group = document.addObject("App::Part", f"Joint{joint['name']}")
+    group.Placement.Base = FreeCAD.Vector(x, 0, 0)
     seen: Counter[str] = Counter()
-    for place in kit.joint:
+    for place in joint["pieces"]:
         role = place["role"]
         link = document.addObject("App::Link", role)
         link.LinkedObject = parts[place["part"]]
@@ -210,15 +215,16 @@ def _joint(document: Any, kit: KitData, parts: Mapping[str, Any]) -> None:
 
 
 def _frame(document: Any, kit: KitData, parts: Mapping[str, Any], sheet: Any, y: float) -> None:
-    """The whole frame: one link for each role, with as many places as it has pieces."""
+    """The whole frame: one link for each part and role, with as many places as pieces."""
     group = document.addObject("App::Part", "Frame")
     group.Placement.Base = FreeCAD.Vector(0, y, 0)
-    kinds = {place["role"]: place["part"] for place in kit.placements}
-    for role, kind in kinds.items():
+    for role, part in dict.fromkeys((p["role"], p["part"]) for p in kit.placements):
         link = document.addObject("App::LinkPython", f"frame_{role}")
-        link.LinkedObject = parts[kind]
+        link.LinkedObject = parts[part]
         link.ShowElement = False
-        _add(link, "App::PropertyString", _MARK, "The role of its pieces", role)
+        _add(
+            link, "App::PropertyString", _MARK, "The role and part of its pieces", f"{role} {part}"
+        )
         _add(link, "App::PropertyDistance", "EdgeLength", LENGTHS["edge_length"][1], 0.0)
         link.setExpression("EdgeLength", f"{sheet.Name}.edge_length")
         _draw_as_usual(link)

@@ -71,7 +71,11 @@ ROLE_LABELS = {
     "peg": QT_TRANSLATE_NOOP("Scadgen", "Pegs"),
 }
 
+#: Any edge element of a frame that has its own kinds of them.
+_EDGE = QT_TRANSLATE_NOOP("Scadgen", "Edge element")
+
 _ALONE = {
+    "edge": "row",
     "basic": "row",
     "tube": "row",
     "connector": "cap",
@@ -82,7 +86,7 @@ _ALONE = {
 
 def role_alone(kind: str) -> str:
     """The role whose colour a part alone has."""
-    return _ALONE.get(kind, "cross")
+    return _ALONE.get(kind, _ALONE.get(kind.partition("_")[0], "cross"))
 
 
 def property_of(parameter: str) -> str:
@@ -92,4 +96,7 @@ def property_of(parameter: str) -> str:
 
 def label_of(kind: str) -> str:
     """What a person calls a kind of part, in the language of FreeCAD."""
-    return str(Qt.translate("Scadgen", KINDS[kind]))
+    if kind in KINDS:
+        return str(Qt.translate("Scadgen", KINDS[kind]))
+    first, _, number = kind.partition("_")
+    return f"{Qt.translate('Scadgen', KINDS.get(first, _EDGE))} {number.replace('_', ' ')}"

@@ -20,15 +20,27 @@ from freecad.scadgen.layout import LAYOUTS
 
 __all__ = ["BoxesTest"]
 
-_VALUES = {"side": 10.0, "edge_length": 60.0, "clearance": 0.2}
+_VALUES = {
+    "side": 10.0,
+    "edge_length": 60.0,
+    "clearance": 0.2,
+    "peg_width": 4.0,
+    "peg_length": 6.0,
+    "peg_clearance": 0.2,
+    "peg_chamfer": 0.5,
+}
+
+_WEAVE = {"ring_ratio": 2.0, "span": 0.9, "amplitude": 0.3, "bend": 0.7, "periods": 1.2}
 
 #: Parts of the kit, and their lengths: sides and edge lengths.
 _LENGTHS = {
     "basic": (-2, 1),
     "one_sided": (-1, 1),
+    "two_sided": (0, 1),
     "connector": (1, 0),
     "half": (2, 0),
     "peg": (1, 0),
+    "tube": (3, 0),
 }
 
 
@@ -122,19 +134,18 @@ def _box(sides: int, edges: int) -> dict[str, Any]:
 
 def _kit() -> str:
     """The text of the kit."""
-    highest = {"side": 20.0, "edge_length": 100.0, "clearance": 1.0}
     ranges = [
         {
             "parameter": name,
             "low": {"terms": {}, "constant": 0.0},
-            "high": {"terms": {}, "constant": high},
+            "high": {"terms": {}, "constant": 5 * value},
             "reason": "larger is not tested",
         }
-        for name, high in highest.items()
+        for name, value in _VALUES.items()
     ]
     kit = {
         "format": "scadgen-kit",
-        "version": 1,
+        "version": 2,
         "frame": "square",
         "key": "fixed",
         "detail": "boxes",
@@ -144,7 +155,16 @@ def _kit() -> str:
         "values": _VALUES,
         "ranges": ranges,
         "bill": {},
-        "joint": [{"part": "half", "at": [0, 0], "turn": 0, "flip": False, "role": "half_a"}],
+        "joints": [
+            {
+                "name": "",
+                "connectors": ["connector"],
+                "weave": {"name": "boxes", **_WEAVE},
+                "pieces": [
+                    {"part": "half", "at": [0, 0], "turn": 0, "flip": False, "role": "half_a"}
+                ],
+            }
+        ],
         "parts": {name: _box(*lengths) for name, lengths in _LENGTHS.items()},
     }
     return json.dumps(kit)

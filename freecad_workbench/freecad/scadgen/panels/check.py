@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import math
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -14,6 +16,7 @@ from PySide import QtCore, QtGui
 from freecad.scadgen import document
 from freecad.scadgen.affine import KitError, read_kit
 from freecad.scadgen.engine import Engine, EngineError, Outcome
+from freecad.scadgen.figures import volume
 from freecad.scadgen.kit_object import data_of
 from freecad.scadgen.names import KINDS
 from freecad.scadgen.panels.panel import Panel
@@ -23,6 +26,9 @@ __all__ = ["CheckPanel", "Row"]
 
 #: Share of the time after which the kit is made again.
 _MADE = 0.1
+
+#: Volumes that differ by this share of them are the same: FreeCAD adds up in another order.
+_EQUAL = 1e-6
 
 translate = App.Qt.translate
 
@@ -81,9 +87,9 @@ class CheckPanel(Panel):
     def present(self) -> None:
         """Show the panel and start."""
         super().present()
-        self.rows = [row for row in (_sound(part) for part in self._parts()) if row]
         folder = Path(self._folder.name)
         try:
+            self.rows = [row for part in self._parts() for row in _faults(part)]
             self._start(_making(self.kit, folder))
         except KitError as error:
             self._ended(Outcome(False, "", str(error)))
@@ -208,15 +214,27 @@ def _results(output: str) -> list[tuple[bool, str, str, str]]:
         raise KitError(text) from error
 
 
-def _sound(part: Any) -> Row | None:
-    """What is wrong with a part's own values, if anything is."""
+def _faults(part: Any) -> Iterator[Row]:
+    """What is wrong with a part's own values, or with its shape at these.
+
+    Raises
+    ------
+    KitError
+        The kit is broken.
+    """
     data = data_of(part.Kit)
+    values, solid = values_of(part, data), data.parts[part.Kind]
     try:
-        refuse(data, values_of(part, data))
+        refuse(data, values)
     except KitError as error:
         check = translate("Scadgen", "{} is in its ranges").format(part.Label)
-        return Row(False, check, str(error), translate("Scadgen", "in range"), (part.Name,))
-    return None
+        yield Row(False, check, str(error), translate("Scadgen", "in range"), (part.Name,))
+        return
+    found = 0.0 if part.Shape.isNull() else part.Shape.Volume
+    bound = volume(solid.points(values), solid.triangles)
+    if not math.isclose(found, bound, rel_tol=_EQUAL):
+        check = translate("Scadgen", "{} has the shape that its values make").format(part.Label)
+        yield Row(False, check, f"{found:.7g} mm3", f"{bound:.7g} mm3", (part.Name,))
 
 
 def _making(kit: Any, folder: Path) -> list[str]:
@@ -230,8 +248,8 @@ def _making(kit: Any, folder: Path) -> list[str]:
     data = data_of(kit)
     values = values_of(kit, data)
     refuse(data, values)
-    weave = json.loads(kit.Data)["weave"]
-    path = folder / f"{weave['name']}.json"
+    weave = data.joints[0]["weave"]
+    path = folder / "weave.json"  # a name in the document may lead elsewhere
     path.write_text(json.dumps({k: v for k, v in weave.items() if k != "name"}), encoding="utf-8")
     words = ["kit", data.frame, "--output", str(folder / "kit"), "--weave", str(path)]
     words += ["--key", data.key, "--detail", data.detail]

@@ -155,6 +155,10 @@
    <translation>Verbinder</translation>
   </message>
   <message>
+   <source>Edge element</source>
+   <translation>Kantenelement</translation>
+  </message>
+  <message>
    <source>Elements along the rows</source>
    <translation>Elemente entlang der Reihen</translation>
   </message>
@@ -325,6 +329,10 @@
   <message>
    <source>{:.1f} sides, {:.1f} mm</source>
    <translation>{:.1f} Seiten, {:.1f} mm</translation>
+  </message>
+  <message>
+   <source>{} has the shape that its values make</source>
+   <translation>{} hat die Form, die seine Werte ergeben</translation>
   </message>
   <message>
    <source>{} is in its ranges</source>

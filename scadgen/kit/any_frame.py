@@ -1,0 +1,335 @@
+"""Kits of any frame: a kind of joint for each set of angles, an element for each kind of edge.
+
+Joints are lettered as ``scadgen frame`` letters them.  A connector is named by its joint and its
+edge there, ``connector_A1``, and so are the halves it may be split into: ``half_A1``, and
+``half_A1_over`` for half B where that is another part.  Edge elements are numbered.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from scadgen.element.ends import End, connector, connector_end, key_end, part, peg
+from scadgen.element.pieces import half
+from scadgen.element.squares import Key
+from scadgen.errors import GeometryError, InputError, InvariantError
+from scadgen.frame.graph import Frame, make_frame
+from scadgen.frame.joints import check_lengths, least_scale
+from scadgen.frame.kinds import Kinds, choose_kinds
+from scadgen.frame.placement import Placement
+from scadgen.frame.planarity import where
+from scadgen.frame.sameness import Sameness, joint_name, sameness
+from scadgen.joint.weave import LIMITS, Weave, any_joint
+from scadgen.kit.model import Joint, Kit
+from scadgen.kit.pieces import Pieces, best_pieces
+from scadgen.kit.ranges import TUBE, check_values, edge_range, ranges
+from scadgen.kit.request import Request, default_values
+from scadgen.solid.affine import AffineSolid, Floats, Range
+
+__all__ = ["build_frame"]
+
+#: Decimals of a placement, in edge lengths and degrees.
+_DECIMALS = 9
+
+#: Decimals of the edge length, in mm.
+_LENGTH_DECIMALS = 6
+
+#: Tube between two joints where it may be chosen, in sides: room for two sockets.
+_ROOM = 1.5
+
+#: What is added to a ring ratio until walls keep away from the ring's edges: they hardly move.
+_WIDER = (0.0, 0.05, 0.1)
+
+#: An end of an element: number of its shape, slot there, and whether it is a socket.
+_End = tuple[int, int, bool]
+
+
+def build_frame(request: Request) -> Kit:
+    """Make a kit of any frame.
+
+    Raises
+    ------
+    InputError
+        A live parameter outside its range, or edges that no ring can hold.
+    GeometryError
+        A joint's weave makes no sound pieces, or an edge is too short: says where.
+    """
+    frame = _graph(request)
+    kinds = choose_kinds(frame, sameness(frame), rim=request.rim == "caps")
+    weaves = [_weave(frame, kinds, number) for number in range(len(kinds.shapes))]
+    frame = _sized(request, frame, np.array([weaves[n].ring_ratio for n in kinds.shape_of]))
+    same = sameness(frame)
+    pieces = tuple(
+        _pieces(request, frame, kinds, number, weave) for number, weave in enumerate(weaves)
+    )
+    build = _Build(frame, same, kinds, pieces)
+    limits = build.limits()
+    values = default_values(request, pieces, limits)
+    values["edge_length"] = build.unit
+    check_values(limits, values)
+    return Kit(
+        frame=request.frame,
+        key=request.key,
+        rows=0,
+        columns=0,
+        detail=request.detail,
+        command=request.command,
+        values=values,
+        ranges=limits,
+        parts=build.parts(),
+        joints=tuple(build.joint(n) for n in range(len(kinds.kinds))),
+        placements=tuple(build.placements()),
+        graph=frame,
+        rim=request.rim,
+    )
+
+
+def _graph(request: Request) -> Frame:
+    """The frame that is asked for.
+
+    Raises
+    ------
+    InvariantError
+        There is none.
+    """
+    if request.graph is None:
+        msg = "a frame without rows and columns has a graph"
+        raise InvariantError(msg)
+    return request.graph
+
+
+def _sized(request: Request, frame: Frame, rings: Floats) -> Frame:
+    """The frame as large as its shortest edge is to be, or as its joints need.
+
+    Raises
+    ------
+    GeometryError
+        An edge is too short: which, and what would help.
+    """
+    side, shortest = request.values.get("side", 10.0), float(frame.lengths.min())
+    wanted = request.values.get("edge_length", shortest)
+    if request.resizable and "edge_length" not in request.values:
+        need = shortest * least_scale(frame, side, rings, _ROOM)
+        wanted = max(6, math.ceil(need / side - 1e-9)) * side
+    if abs(wanted - shortest) > 10**-_LENGTH_DECIMALS:
+        frame = make_frame(frame.name, frame.vertices * (wanted / shortest), frame.edges)
+    check_lengths(frame, side, rings, TUBE)
+    return frame
+
+
+def _weave(frame: Frame, kinds: Kinds, number: int) -> Weave:
+    """The weave of all joints of one shape.
+
+    Raises
+    ------
+    InputError
+        Two of its edges are too near each other: says where.
+    """
+    try:
+        return any_joint(float(kinds.shapes[number].gaps.min()))
+    except InputError as error:
+        msg = f"{_where(frame, kinds, number)}: {error}"
+        raise InputError(msg) from error
+
+
+def _where(frame: Frame, kinds: Kinds, number: int) -> str:
+    """Where the first joint of a shape stands, and its angles."""
+    vertex = int(np.flatnonzero(kinds.shape_of == number)[0])
+    angles = ", ".join(f"{angle:.4g}" for angle in np.degrees(kinds.shapes[number].gaps))
+    return f"vertex {vertex} at {where(frame.vertices[vertex])}, angles {angles}"
+
+
+def _pieces(request: Request, frame: Frame, kinds: Kinds, number: int, weave: Weave) -> Pieces:
+    """The pieces of all joints of one shape, on a ring hardly wider where need be.
+
+    Raises
+    ------
+    GeometryError
+        The weave makes no sound ones: says where.
+    """
+    keys = sorted({slot for kind in kinds.kinds if kind.shape == number for slot in kind.keys})
+    directions = kinds.shapes[number].directions.tolist()
+    refusal: GeometryError | None = None
+    for wider in _WIDER:
+        ring_ratio = min(round(weave.ring_ratio + wider, 2), LIMITS["ring_ratio"][1])
+        own = replace(weave, ring_ratio=ring_ratio)
+        try:
+            return best_pieces(
+                directions, own, request.key, request.detail, keys, bored=request.bored
+            )
+        except GeometryError as error:
+            refusal = refusal or error
+    msg = f"{_where(frame, kinds, number)}: {refusal}"
+    raise GeometryError(msg) from refusal
+
+
+@dataclass(frozen=True, eq=False)
+class _Build:
+    """What a frame's parts and placements are made from."""
+
+    frame: Frame
+    same: Sameness
+    kinds: Kinds
+    pieces: tuple[Pieces, ...]
+
+    @property
+    def unit(self) -> float:
+        """Length of the shortest edges, in mm: the edge length."""
+        return round(min(edge.length for edge in self.same.edges), _LENGTH_DECIMALS)
+
+    @cached_property
+    def elements(self) -> dict[tuple[_End, _End, float], str]:
+        """Name of each kind of edge element, by its ends and its length in edge lengths."""
+        found = {self._element(edge)[0] for edge in range(len(self.frame.edges))}
+        return {what: f"edge_{n}" for n, what in enumerate(sorted(found), 1)}
+
+    def _element(self, edge: int) -> tuple[tuple[_End, _End, float], bool]:
+        """What an edge's element is, and whether it stands the other way round."""
+        length = self.same.edges[self.same.edge_of[edge]].length / self.unit
+        near, far = (self._end(edge, end) for end in (0, 1))
+        swapped = far < near
+        return ((far, near) if swapped else (near, far)) + (round(length, _DECIMALS),), swapped
+
+    def _end(self, edge: int, end: int) -> _End:
+        kind = self.kinds.kinds[self.kinds.kind_of[self.frame.edges[edge, end]]]
+        slot = int(self.kinds.slots[edge, end])
+        return kind.shape, slot % self.kinds.shapes[kind.shape].period, slot in kind.keys
+
+    def limits(self) -> tuple[Range, ...]:
+        """What the live parameters may be, so that all joints and elements are sound."""
+        keys = [one.key for one in self.pieces]
+        start = max(key.tube_start for key in keys)
+        tightest = Key(
+            keys[0].style,
+            keys[0].bored,
+            start,
+            start - max(key.tube_start - key.pad for key in keys),
+            min(key.window for key in keys),
+            min(key.depth for key in keys),
+        )
+        clearance = min(one.clearance_limit for one in self.pieces)
+        hole = min(one.hole(edge) for one in self.pieces for edge in one.halves)
+        of_joints = ranges(tightest, clearance, hole)
+        of_edges = [
+            edge_range((keys[a], near), (keys[b], far), length)
+            for (a, _, near), (b, _, far), length in sorted(self.elements)
+        ]
+        return (
+            *(limit for limit in of_joints if limit.parameter != "edge_length"),
+            *(limit for n, limit in enumerate(of_edges) if limit not in of_edges[:n]),
+        )
+
+    def parts(self) -> dict[str, AffineSolid]:
+        """Every part: the elements, the connectors, the halves, the pegs."""
+        solids = [
+            part(name, self._surface(near), self._surface(far), {"edge_length": length})
+            for (near, far, length), name in self.elements.items()
+        ]
+        for number, one in enumerate(self.pieces):
+            for slot in range(self.kinds.shapes[number].period):
+                solid = connector(one.key, one.connectors[slot])
+                solids.append(replace(solid, name=self._name("connector", number, slot)))
+        for number, one in enumerate(self.pieces):
+            for slot, (first, second) in one.halves.items():
+                names = self._halves(number, slot)
+                for name, piece in dict(zip(names, (first, second), strict=True)).items():
+                    solids.append(replace(half(one.key, piece), name=name))
+        solids += [
+            replace(peg(self.pieces[number].key), name=self._peg(number))
+            for number in range(len(self.pieces))
+        ]
+        return {solid.name: solid for solid in solids}
+
+    def _surface(self, end: _End) -> End:
+        number, slot, socket = end
+        one = self.pieces[number]
+        return key_end(one.key) if socket else connector_end(one.key, one.connectors[slot])
+
+    def _name(self, what: str, number: int, slot: int) -> str:
+        period = self.kinds.shapes[number].period
+        return f"{what}_{joint_name(number)}{slot % period + 1}"
+
+    def _halves(self, number: int, slot: int) -> tuple[str, str]:
+        """Names of half A and half B, the same where they are the same part."""
+        first, second = self.pieces[number].halves[slot]
+        name = self._name("half", number, slot)
+        return name, name if first is second else f"{name}_over"
+
+    def _peg(self, number: int) -> str:
+        """Name of a joint's peg: those that start in the same place are the same."""
+        pads = [round(one.key.pad, _DECIMALS) for one in self.pieces]
+        alike = pads.index(pads[number])
+        return "peg" if len(set(pads)) == 1 else f"peg_{joint_name(alike)}"
+
+    def joint(self, number: int) -> Joint:
+        """A kind of joint, turned so that its first key is along +x."""
+        kind = self.kinds.kinds[number]
+        shape, one = self.kinds.shapes[kind.shape], self.pieces[kind.shape]
+        count = len(shape.directions)
+        first = kind.keys[0]
+        turns = np.degrees(
+            (np.roll(shape.directions, -first) - shape.directions[first]) % (2 * np.pi)
+        )
+        alike = [n for n, other in enumerate(self.kinds.kinds) if other.shape == kind.shape]
+        name = joint_name(kind.shape) + (str(alike.index(number) + 1) if len(alike) > 1 else "")
+        if len(self.kinds.kinds) == 1:
+            name = ""
+        return Joint(
+            name=name,
+            turns=tuple(turns.round(_DECIMALS).tolist()),
+            keys=tuple((slot - first) % count for slot in kind.keys),
+            caps=tuple(sorted((slot - first) % count for slot in kind.caps)),
+            connectors=tuple(
+                self._name("connector", kind.shape, slot + first) for slot in range(count)
+            ),
+            weave=one.joint.weave.as_dict(),
+            pieces=tuple(
+                self._standing(number, (0.0, 0.0), -shape.directions[first], range(count))
+            ),
+            figures=one.figures(),
+        )
+
+    def _standing(
+        self, number: int, at: tuple[float, float], turn: float, caps: Iterable[int]
+    ) -> Iterator[Placement]:
+        """The pieces of a joint where it stands: halves, connectors without a tube, pegs."""
+        kind = self.kinds.kinds[number]
+        directions = self.kinds.shapes[kind.shape].directions
+        degrees = np.degrees((turn + directions) % (2 * np.pi)).round(_DECIMALS).tolist()
+        for slot in kind.keys:
+            for name, flip, role in zip(
+                self._halves(kind.shape, slot), (False, True), ("half_a", "half_b"), strict=True
+            ):
+                yield Placement(name, at, degrees[slot], flip, role)
+        first = kind.keys[0]
+        for slot in sorted(set(caps) - set(kind.keys), key=lambda s: (s - first) % len(directions)):
+            name = self._name("connector", kind.shape, slot)
+            yield Placement(name, at, degrees[slot], flip=False, role="cap")
+        for slot in kind.keys:
+            yield Placement(self._peg(kind.shape), at, degrees[slot], flip=False, role="peg")
+
+    def placements(self) -> Iterator[Placement]:
+        """Where everything stands: the elements, then the pieces of each joint."""
+        vertices = (self.frame.vertices / self.unit).round(_DECIMALS) + 0.0
+        used: list[set[int]] = [set() for _ in vertices]
+        for edge, pair in enumerate(self.frame.edges):
+            what, swapped = self._element(edge)
+            for end, vertex in enumerate(pair):
+                used[vertex].add(int(self.kinds.slots[edge, end]))
+            vertex, slot = int(pair[int(swapped)]), int(self.kinds.slots[edge, int(swapped)])
+            shape = self.kinds.shapes[self.kinds.kinds[self.kinds.kind_of[vertex]].shape]
+            turn = float(np.degrees(self.kinds.turn[vertex] + shape.directions[slot])) % 360
+            role = "cross" if what[0][2] or what[1][2] else "row"
+            at = (float(vertices[vertex, 0]), float(vertices[vertex, 1]))
+            yield Placement(self.elements[what], at, round(turn, _DECIMALS), flip=False, role=role)
+        for vertex, (x, y) in enumerate(vertices.tolist()):
+            number = int(self.kinds.kind_of[vertex])
+            kind = self.kinds.kinds[number]
+            count = len(self.kinds.shapes[kind.shape].directions)
+            caps = set(range(count)) - used[vertex]
+            yield from self._standing(number, (x, y), float(self.kinds.turn[vertex]), caps)

@@ -1,0 +1,248 @@
+"""From directions and a weave to a joint's pieces, its key, and how far all may draw back."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from scadgen.element.ends import connector
+from scadgen.element.pieces import Piece, half
+from scadgen.element.squares import Key
+from scadgen.errors import GeometryError, InvariantError, ScadgenError
+from scadgen.joint.joint import DETAILS, Joint, check_footprint, make_joint, site_curves
+from scadgen.joint.lattice import make_lattice
+from scadgen.joint.pieces import SPLIT
+from scadgen.joint.recede import recede
+from scadgen.joint.surface import half_turn
+from scadgen.joint.territory import arm, belongs
+from scadgen.joint.weave import Weave
+from scadgen.kit.ranges import WALL
+from scadgen.solid.affine import AffineSolid
+from scadgen.solid.mesh import solid_faults
+from scadgen.solid.sweep import safe_share
+
+__all__ = ["Pieces", "best_pieces"]
+
+#: Clearance up to which pieces are tried, that which is enough, and that which must be, in sides.
+_TRIED, _ENOUGH, _LEAST = 0.06, 0.042, 0.005
+
+#: Lattices tried for it, by their extra cells in each gap.
+_LATTICES = (0, 2, 4, 6, 8)
+
+#: Clearance at which facets are triangulated, in sides: the middle of what is enough.
+_REST = 0.02
+
+#: Half widths tried for the window of the holes, in sides, and the depth a socket should have.
+_WINDOWS = tuple(n / 100 for n in range(40, 14, -2))
+_DEPTH, _LEAST_DEPTH = 0.65, 0.35
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pieces:
+    """A joint's connectors and halves, and how far they may draw back.
+
+    Parameters
+    ----------
+    joint
+        The joint.
+    key
+        What its keys are like.
+    connectors
+        Of each edge; in a regular joint one and the same.
+    halves
+        Of each edge that is a key's, half A, and half B turned over about its edge, which
+        are the same where the joint is alike on both sides of it.
+    clearance_limit
+        Clearance up to which they are proven sound, in sides.
+    extra
+        Extra cells of its lattice.
+    """
+
+    joint: Joint
+    key: Key
+    connectors: tuple[Piece, ...]
+    halves: Mapping[int, tuple[Piece, Piece]]
+    clearance_limit: float
+    extra: int
+
+    def hole(self, edge: int = 0) -> float:
+        """Free width of the ring's hole along a key's edge, as wide as the window."""
+        outline = self.joint.lattice.nodes[:, 0, 0, :2]
+        turn = float(self.joint.edges[edge])
+        c, s = math.cos(turn), math.sin(turn)
+        outline = outline @ np.array([[c, -s], [s, c]])
+        ends = np.roll(outline, -1, axis=0)
+        share = np.linspace(0, 1, 9)[:, None, None]
+        points = (outline + share * (ends - outline)).reshape(-1, 2)
+        ahead = (points[:, 0] < 0) & (np.abs(points[:, 1]) <= self.key.window + 0.05)
+        return float(self.key.pad + np.abs(points[ahead, 0]).min())
+
+    def figures(self) -> dict[str, float]:
+        """What is known about them, in sides."""
+        made, key = self.joint, self.key
+        edges = sorted(
+            {n for n, piece in enumerate(self.connectors) if piece in self.connectors[n:]}
+        )
+        return {
+            "tube_start_sides": key.tube_start,
+            "pad_sides": key.pad,
+            "ring_hole_sides": min(self.hole(edge) for edge in self.halves),
+            "window_half_width_sides": key.window,
+            "window_depth_sides": key.depth,
+            "clearance_limit_sides": self.clearance_limit,
+            "thinnest_arm_sides": min(arm(made.lattice, made.curves, edge) for edge in edges),
+            "domain_volume_sides3": made.lattice.volume(),
+            "lattice_extra": float(self.extra),
+        }
+
+
+def best_pieces(
+    directions: Sequence[float],
+    weave: Weave,
+    style: str,
+    level: str,
+    keys: Sequence[int] = (0,),
+    *,
+    bored: bool,
+) -> Pieces:
+    """Make pieces on the first lattice that lets them draw back enough, or else the furthest.
+
+    Parameters
+    ----------
+    directions
+        Of the edges, ascending, in [0, 2 pi).
+    weave
+        The weave.
+    style
+        One of `KEYS`.
+    level
+        Name of the detail level.
+    keys
+        Which edges' connectors are split.
+    bored
+        Whether a bore runs along the edges.
+
+    Raises
+    ------
+    GeometryError
+        The weave makes no sound pieces: says why, of the first lattice.
+    """
+    detail = DETAILS[level]
+    probe = make_lattice(directions, weave.ring_ratio, detail.cells)
+    curves = site_curves(probe.edges, weave, detail.samples)
+    for edge in range(len(directions)):
+        check_footprint(probe, curves, edge)
+    best: Pieces | None = None
+    refusal: ScadgenError | None = None
+    for extra in _LATTICES:
+        try:
+            made = make_joint(directions, weave, detail, extra)
+            found = _pieces(made, style, extra, keys, bored=bored)
+        except (GeometryError, InvariantError) as error:
+            refusal = refusal or error
+            continue
+        if best is None or found.clearance_limit > best.clearance_limit:
+            best = found
+        if found.clearance_limit >= _ENOUGH:
+            break
+    if best is not None and best.clearance_limit >= _LEAST:
+        return best
+    if isinstance(refusal, GeometryError):
+        raise refusal
+    msg = (
+        f"weave {weave.name}: its walls meet the ring's faces at too flat an angle "
+        "to leave any clearance; another amplitude, bend or span helps"
+    )
+    raise GeometryError(msg)
+
+
+def _pieces(made: Joint, style: str, extra: int, keys: Sequence[int], *, bored: bool) -> Pieces:
+    """The pieces of a joint, and the clearance up to which they are sound."""
+    key = _key(made, style, keys, bored=bored)
+    wholes = {
+        id(surface): Piece(surface, recede(surface, ()), _REST) for surface in made.connectors
+    }
+    halves = {}
+    for edge in keys:
+        first, second = made.halves[edge]
+        over = half_turn(second)
+        own = Piece(first, recede(first, (SPLIT,)), _REST)
+        same = np.array_equal(over.points, first.points)
+        halves[edge] = own, own if same else Piece(over, recede(over, (SPLIT,)), _REST)
+    solids = itertools.chain(
+        (connector(key, piece) for piece in wholes.values()),
+        (half(key, piece) for piece in dict.fromkeys(itertools.chain(*halves.values()))),
+    )
+    limit = _TRIED
+    for solid in solids:
+        limit = min(limit, _limit(solid, key))
+        if limit < _LEAST:
+            break
+    connectors = tuple(wholes[id(surface)] for surface in made.connectors)
+    return Pieces(made, key, connectors, halves, math.floor(limit * 1e3) / 1e3, extra)
+
+
+def _limit(solid: AffineSolid, key: Key) -> float:
+    """Clearance, in sides, up to which a solid is proven sound.
+
+    Its holes are as wide and as deep as their ranges allow, so that what draws back without
+    touching them touches no smaller ones either.
+    """
+    width = 2 * (key.window - WALL)
+    values = {"side": 1.0, "edge_length": 6.0, "clearance": 0.0, "peg_clearance": 0.0}
+    values |= {"peg_width": width, "peg_length": key.depth - 2 * WALL, "bore": width - 4 * WALL}
+    values["peg_chamfer"] = 0.01
+    start = solid.points(values)
+    faults = solid_faults(solid.points({**values, "clearance": _LEAST}), solid.triangles)
+    if faults:
+        return 0.0
+    way = solid.points({**values, "clearance": _TRIED}) - start
+    return _TRIED * safe_share(start, way, solid.triangles, solid.facets)
+
+
+def _key(made: Joint, style: str, keys: Sequence[int], *, bored: bool) -> Key:
+    """The window in which a socket has room inside each connector that is split.
+
+    Raises
+    ------
+    GeometryError
+        There is none.
+    """
+    lattice = made.lattice
+    start, pad = lattice.tube_start, lattice.pad
+    through = bored or style == "loose"
+    turned = [
+        tuple(curve.turned(-float(made.edges[edge])) for curve in made.curves) for edge in keys
+    ]
+    best = (0.0, 0.0)
+    for depth, window in _windows(start - pad, lattice.pad_half_width, through=through):
+        if best[0] >= _DEPTH or (depth, window) <= best:
+            continue
+        low = np.array([start - depth, -window, -window])
+        high = np.array([start, window, window])
+        pairs = zip(turned, keys, strict=True)
+        if all(belongs(curves, edge, low, high, margin=WALL) for curves, edge in pairs):
+            best = depth, window
+    depth, window = best
+    if not depth:
+        msg = (
+            f"weave {made.weave.name}: no room for a peg's socket beside the connector's walls; "
+            "a larger ring ratio or a smaller span helps"
+        )
+        raise GeometryError(msg)
+    return Key(style, bored, start, pad, window, depth)
+
+
+def _windows(thick: float, pad: float, *, through: bool) -> Iterator[tuple[float, float]]:
+    """Depths and half widths to try, the widest first, and of those the deepest."""
+    for window in _WINDOWS:
+        if not through:
+            yield from (
+                (float(d), window) for d in np.arange(thick - 2 * WALL, _LEAST_DEPTH, -0.05)
+            )
+        elif window <= pad - WALL / 2:
+            yield thick, window

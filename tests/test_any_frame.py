@@ -1,0 +1,142 @@
+"""Kits of any frame: joints of unequal angles, several kinds of parts."""
+
+import math
+import re
+
+import numpy as np
+import pytest
+from kits import once
+
+from scadgen.check.geometry import closed, footprint, gaps, partition, same
+from scadgen.check.locking import joint_locks
+from scadgen.emit.placing import placing
+from scadgen.emit.scad import scad
+from scadgen.emit.scad_parameters import views
+from scadgen.errors import GeometryError, InputError
+from scadgen.frame.catalogue import named
+from scadgen.frame.graph import make_frame
+from scadgen.kit.build import Request, build
+from scadgen.kit.store import dumps, loads, summary
+from scadgen.solid.mesh import volume
+from scadgen.tools.openscad import render
+from scadgen.tools.stl import check_stl
+
+#: Three edges at unequal angles, and a fourth that hangs on one of them.
+FORK = [[0, 0], [100, 0], [-30, 110], [-60, -90], [190, 60]], [[0, 1], [0, 2], [0, 3], [1, 4]]
+
+
+def request(frame, **changes):
+    wanted = {"graph": frame, "detail": "draft", "resizable": True} | changes
+    return Request("any", "loose", 0, 0, **wanted)
+
+
+def ladder():
+    return once("any-ladder", lambda _: build(request(named("ladder", bays=2))))
+
+
+def fork():
+    return once("any-fork", lambda _: build(request(make_frame("fork", *FORK))))
+
+
+both = pytest.mark.parametrize("made", [ladder, fork])
+
+
+def test_the_parts_of_a_ladder_are_those_reasoned_out_by_hand():
+    # Six vertices, all of three directions: right, up and left, where the rail ends a cap.  One
+    # key each, at the edge to the left seen from a rung: rungs are whole at both ends, and so
+    # are two of the four pieces of rails at one end.
+    made = ladder()
+    (joint,) = made.joints
+    assert joint.turns == (0.0, 90.0, 180.0)
+    assert len(joint.keys) == 1
+    bill = summary(made)["bill"]
+    assert sum(n for part, n in bill.items() if part.startswith("edge_")) == 7
+    assert sum(n for part, n in bill.items() if part.startswith("half_")) == 12
+    assert bill["peg"] == 6
+    connectors = sum(n for part, n in bill.items() if part.startswith("connector_"))
+    ends = {"edge_1", "edge_2", "edge_3"} & set(bill)
+    assert ends
+    # Each joint has two halves and two whole connectors, at elements or as caps.
+    whole = sum(
+        n * sum(1 for p in _ends(made, part) if p) for part, n in bill.items() if part in ends
+    )
+    assert whole + connectors == 12
+
+
+def _ends(made, name):
+    """Whether each end of an element has a whole connector: it reaches behind its vertex."""
+    points = made.parts[name].points(made.values)
+    length = made.values["edge_length"] * made.parts[name].coefficients["edge_length"][:, 0].max()
+    reach = 1.2 * made.values["side"]
+    yield points[:, 0].min() < reach
+    yield points[:, 0].max() > length - reach
+
+
+@both
+def test_a_kit_read_back_is_the_kit_that_was_written(made):
+    text = dumps(made())
+    assert dumps(loads(text)) == text
+
+
+@both
+def test_its_parameters_make_it_again(made):
+    assert same(made()).good
+
+
+@both
+def test_its_solids_are_sound_and_its_joints_lock(made):
+    kit = made()
+    results = list(closed(kit))
+    for joint in kit.joints:
+        results += [*partition(kit, joint), footprint(kit, joint), *gaps(kit, joint)]
+        results += joint_locks(kit, joint)
+    assert [result for result in results if not result.good] == []
+
+
+@both
+def test_openscad_draws_all_of_it(made, tmp_path):
+    kit = made()
+    file = tmp_path / "any.scad"
+    file.write_text(scad(kit), encoding="ascii")
+    content = {n: volume(s.points(kit.values), s.triangles) for n, s in kit.parts.items()}
+    for name in [next(iter(kit.parts)), *views(kit)]:
+        render(file, tmp_path / "one.stl", {"part": name, "bed": [400.0, 400.0]}, timeout=120)
+        found = check_stl(tmp_path / "one.stl")
+        if name in content:
+            assert found == pytest.approx(content[name], rel=1e-6)
+        if name == "frame":
+            expected = sum(content[p.part] for p in kit.placements)
+            assert found == pytest.approx(expected, rel=1e-6)
+
+
+def test_its_joints_turn_with_the_frame():
+    turn = 0.3
+    c, s = math.cos(turn), math.sin(turn)
+    points = np.array(FORK[0]) @ [[c, s], [-s, c]]
+    turned = build(request(make_frame("fork", points, FORK[1])))
+    assert sorted(turned.parts) == sorted(fork().parts)
+    for name, solid in fork().parts.items():
+        ours, theirs = (
+            volume(x.points(kit.values), x.triangles)
+            for x, kit in ((solid, fork()), (turned.parts[name], turned))
+        )
+        assert theirs == pytest.approx(ours, rel=1e-6)
+
+
+def test_a_picture_says_where_each_piece_goes():
+    made = fork()
+    text = placing(made)
+    names = re.findall(r"<text[^>]*>([^<]*)</text>", text)
+    elements = [p.part for p in made.placements if p.part.startswith("edge_")]
+    assert sorted(names) == sorted(name.replace("_", " ") for name in elements)
+    assert text.count("<circle") == len(FORK[0])
+
+
+def test_what_cannot_be_built_is_refused_with_its_place():
+    near = make_frame("near", [[0, 0], [200, 0], [199, 20]], [[0, 1], [0, 2]])
+    with pytest.raises(InputError, match=r"vertex 0 at \(0, 0\), angles 5\.\d+, .*at least 24"):
+        build(request(near))
+    with pytest.raises(GeometryError, match=r"edge \d+ from .* too short for its two joints"):
+        build(request(make_frame("fork", *FORK), resizable=False, values={"side": 30.0}))
+    with pytest.raises(InputError, match="key = 'fixed': must be one of loose"):
+        Request("any", "fixed", 0, 0, graph=near)

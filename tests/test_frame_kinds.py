@@ -1,0 +1,119 @@
+"""Kinds of joints: caps at the rim, and keys that let a frame be put together."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import Delaunay
+
+from scadgen.frame.catalogue import NAMES, named
+from scadgen.frame.graph import make_frame
+from scadgen.frame.kinds import choose_kinds
+from scadgen.frame.sameness import sameness
+
+
+def kinds_of(frame, **options):
+    return choose_kinds(frame, sameness(frame), **options)
+
+
+def whole_edges(frame, kinds):
+    """Edges with whole connectors at both ends."""
+    keys = [kinds.kinds[kind].keys for kind in kinds.kind_of]
+    split = [
+        any(slot in keys[v] for v, slot in zip(*pair, strict=True))
+        for pair in zip(frame.edges, kinds.slots, strict=True)
+    ]
+    return frame.edges[~np.array(split)]
+
+
+def assert_can_be_put_together(frame, kinds):
+    """No loop of whole connectors, a key at every vertex, and every edge in its own slot."""
+    edges = whole_edges(frame, kinds)
+    count = len(frame.vertices)
+    graph = coo_array((np.ones(len(edges)), edges.T), shape=(count, count))
+    assert connected_components(graph, directed=False)[0] == count - len(edges)
+    assert all(kind.keys for kind in kinds.kinds)
+    for vertex in range(count):
+        slots = kinds.slots[frame.edges == vertex]
+        assert len(set(slots.tolist())) == len(slots)
+
+
+def assert_directions_are_those_of_the_edges(frame, kinds):
+    for edge, (pair, slots) in enumerate(zip(frame.edges, kinds.slots, strict=True)):
+        for end, vertex in enumerate(pair):
+            step = frame.vertices[pair[1 - end]] - frame.vertices[vertex]
+            shape = kinds.shapes[kinds.shape_of[vertex]]
+            turn = kinds.turn[vertex] + shape.directions[slots[end]]
+            off = (np.arctan2(step[1], step[0]) - turn + np.pi) % (2 * np.pi) - np.pi
+            assert abs(off) < 3e-4, (edge, end)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_named_frames_can_be_put_together(name):
+    frame = named(name)
+    kinds = kinds_of(frame)
+    assert_can_be_put_together(frame, kinds)
+    assert_directions_are_those_of_the_edges(frame, kinds)
+
+
+#: In these, one key at the same edge of every joint leaves no loop of whole connectors: of four
+#: edges in a row every other direction is left, of three a zigzag or lone edges, of 3.6.3.6
+#: lines.  The vertices of 4.6.12 are alike up to a mirror, which makes two joints.
+ONE_KIND = {
+    "hexagonal": 1,
+    "square": 1,
+    "3.6.3.6": 1,
+    "4.8.8": 1,
+    "3.12.12": 1,
+    "4.6.12": 2,
+}
+
+
+@pytest.mark.parametrize("name", ONE_KIND)
+def test_a_tiling_of_alike_vertices_has_one_kind_of_joint_rim_included(name):
+    kinds = kinds_of(named(name))
+    assert len(kinds.kinds) == ONE_KIND[name]
+    assert {len(kind.keys) for kind in kinds.kinds} == {1}
+
+
+def test_no_more_keys_than_joints_where_that_is_enough():
+    # 126 edges at 73 vertices: 72 may have whole connectors at both ends, 54 have a key each.
+    frame = named("3.4.6.4")
+    kinds = kinds_of(frame)
+    assert sum(len(kinds.kinds[kind].keys) for kind in kinds.kind_of) == len(frame.vertices)
+
+
+def test_without_caps_a_corner_is_a_joint_of_its_own():
+    frame = named("square")
+    assert [len(shape.directions) for shape in kinds_of(frame).shapes] == [4]
+    bare = kinds_of(frame, rim=False)
+    assert sorted(len(shape.directions) for shape in bare.shapes) == [2, 3, 4]
+    assert_can_be_put_together(frame, bare)
+
+
+def test_a_lone_end_gets_two_caps():
+    frame = make_frame("stick", [[0, 0], [100, 0]], [[0, 1]])
+    (kind,) = kinds_of(frame).kinds
+    assert len(kinds_of(frame).shapes[0].directions) == 3
+    assert len(kind.caps) == 2
+
+
+def delaunay(seed, count):
+    points = np.random.default_rng(seed).uniform(0, 300, (count, 2))
+    corners = Delaunay(points).simplices
+    pairs = np.sort(np.concatenate([corners[:, :2], corners[:, 1:], corners[:, ::2]]), axis=1)
+    return make_frame("random", points, np.unique(pairs, axis=0))
+
+
+@given(st.integers(0, 2**32 - 1), st.integers(3, 25))
+def test_random_frames_can_be_put_together(seed, count):
+    frame = delaunay(seed, count)
+    kinds = kinds_of(frame)
+    assert_can_be_put_together(frame, kinds)
+    assert_directions_are_those_of_the_edges(frame, kinds)
+    # One key a vertex, or one an edge beyond a spanning tree: no fewer would do.
+    keys = sum(len(kinds.kinds[kind].keys) for kind in kinds.kind_of)
+    beyond = len(frame.edges) - len(frame.vertices) + 1
+    assert max(len(frame.vertices), beyond) <= keys <= len(frame.vertices) + beyond
