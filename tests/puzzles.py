@@ -149,6 +149,40 @@ def ball_in_socket(top):
     return [without(box((-2, -2, -2), (2, 2, top)), ball), ball]
 
 
+def fine_ball(radius):
+    """A ball of some thousand corners."""
+    n = np.arange(3000) + 0.5
+    height, angle = 1 - 2 * n / 3000, np.pi * (1 + 5**0.5) * n
+    flat = np.sqrt(1 - height**2)
+    return hull(radius * np.column_stack([flat * np.cos(angle), flat * np.sin(angle), height]))
+
+
+def rod(radius, sides, low, high):
+    """A regular prism along z; a corner points along x."""
+    angle = 2 * np.pi * np.arange(sides) / sides
+    ring = radius * np.column_stack([np.cos(angle), np.sin(angle)])
+    return hull([(x, y, z) for z in (low, high) for x, y in ring])
+
+
+def joined_solids(*meshes):
+    """The union of meshes."""
+    size = 2 * max(np.abs(points).max() for points, _ in meshes)
+    block = box(3 * [-size], 3 * [size])
+    return without(block, without(block, *meshes))
+
+
+def axle_in_hub(radius, sides, hole=64, pin=None):
+    """An axle in a hub's hole of radius 5 and some sides; flanges 0.2 off hold it.
+
+    The pin, if there is one, is a mesh that is taken from the hub and added to the axle.
+    """
+    ends = [rod(9.0, sides, -30, -15.2), rod(9.0, sides, 15.2, 30)]
+    axle = joined_solids(rod(radius, sides, -20, 20), *ends, *([] if pin is None else [pin]))
+    block = box((-20, -20, -15), (20, 20, 15))
+    hub = without(block, rod(5.0, hole, -20, 20), *([] if pin is None else [pin]))
+    return [hub, axle]
+
+
 def cube_in_box(gap):
     """A cube of side 2 about the origin in a closed box, a gap all around."""
     inner = box((-1 - gap,) * 3, (1 + gap,) * 3)

@@ -12,11 +12,11 @@ from hypothesis import strategies as st
 from kits import kit, mesh, regular
 
 from scadgen.check.geometry import placed
-from scadgen.emit.motion import moved
 from scadgen.errors import InputError, ToolError
 from scadgen.interlock.assembly import largest_part, make_assembly
 from scadgen.interlock.certificate import BALANCED, check_certificate
 from scadgen.interlock.contacts import Contacts, default_tolerance, find_contacts
+from scadgen.interlock.follow import moved
 from scadgen.interlock.keys import alone, keys
 from scadgen.interlock.program import farthest
 from scadgen.interlock.verdict import Certificate, Motion, verdict

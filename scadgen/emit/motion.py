@@ -1,7 +1,7 @@
 """Pictures of a motion: the parts that move in colour, the others grey.
 
 A motion is only a start, so it is drawn larger than life: each part goes the way that it
-starts on, until the farthest has gone about half its size.
+starts on, until the farthest has gone about half its size or what stops it is there.
 """
 
 from __future__ import annotations
@@ -13,10 +13,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from scadgen.emit.preview import Colour, Shell, render
+from scadgen.interlock.follow import moved, speed
 from scadgen.interlock.verdict import Motion
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["motion_gif", "motion_png", "moved"]
+__all__ = ["motion_gif", "motion_png"]
 
 #: Colours of what rests, in turn, and of what moves.
 _REST: tuple[Colour, ...] = ((200, 200, 196), (172, 174, 178), (222, 218, 208))
@@ -29,33 +30,11 @@ _FAR = 1.0
 _FRAMES, _PACE = 24, 60
 
 
-def moved(points: Floats, translation: Floats, rotation: Floats, time: float) -> Floats:
-    """Points of a part after a screw motion about the middle of its box.
-
-    Parameters
-    ----------
-    points
-        ``(v, 3) float``.
-    translation, rotation
-        ``(3,) float`` each: velocity, and radians per unit of time.
-    time
-        How long.
-    """
-    middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    angle = float(np.linalg.norm(rotation)) * time
-    local = points - middle
-    if angle:
-        axis = rotation / np.linalg.norm(rotation)
-        along = np.outer(local @ axis, axis)
-        turned = math.cos(angle) * (local - along) + math.sin(angle) * np.cross(axis, local)
-        local = along + turned
-    return np.asarray(local + middle + time * translation)
-
-
 def motion_png(
     meshes: Sequence[tuple[Floats, Ints]],
     motion: Motion | None,
     *,
+    until: float = math.inf,
     size: tuple[int, int] = (1200, 900),
 ) -> bytes:
     """Draw parts some way along their motion, or at rest if there is none.
@@ -66,6 +45,8 @@ def motion_png(
         Points ``(v, 3) float`` and triangles ``(m, 3) int`` of each part.
     motion
         The motion.
+    until
+        Time at which it ends at the latest.
     size
         Width and height in pixels.
 
@@ -74,11 +55,15 @@ def motion_png(
     png
         The file's bytes; the same for the same input.
     """
-    return render(_shells(meshes, motion, 1.0 if motion else 0.0), size=size)
+    return render(_shells(meshes, motion, until, 1.0 if motion else 0.0), size=size)
 
 
 def motion_gif(
-    meshes: Sequence[tuple[Floats, Ints]], motion: Motion, *, size: tuple[int, int] = (640, 480)
+    meshes: Sequence[tuple[Floats, Ints]],
+    motion: Motion,
+    *,
+    until: float = math.inf,
+    size: tuple[int, int] = (640, 480),
 ) -> bytes:
     """Film parts along their motion, there and back, for ever.
 
@@ -88,6 +73,8 @@ def motion_gif(
         Points ``(v, 3) float`` and triangles ``(m, 3) int`` of each part.
     motion
         The motion.
+    until
+        Time at which it ends at the latest.
     size
         Width and height in pixels.
 
@@ -99,7 +86,9 @@ def motion_gif(
     from PIL import Image  # not needed otherwise
 
     first, *others = (
-        Image.open(io.BytesIO(render(_shells(meshes, motion, share), size=size))).quantize(128)
+        Image.open(io.BytesIO(render(_shells(meshes, motion, until, share), size=size))).quantize(
+            128
+        )
         for share in (0.5 - 0.5 * math.cos(2 * math.pi * n / _FRAMES) for n in range(_FRAMES))
     )
     buffer = io.BytesIO()
@@ -108,13 +97,13 @@ def motion_gif(
 
 
 def _shells(
-    meshes: Sequence[tuple[Floats, Ints]], motion: Motion | None, share: float
+    meshes: Sequence[tuple[Floats, Ints]], motion: Motion | None, until: float, share: float
 ) -> list[Shell]:
     """The parts a share of the way along, in a frame that holds all of the way."""
     numbers = {part: n for n, part in enumerate(motion.parts)} if motion else {}
     shells: list[Shell] = []
     extent = []
-    time = _duration(meshes, motion) if motion else 0.0
+    time = min(_duration(meshes, motion), until) if motion else 0.0
     for part, (points, triangles) in enumerate(meshes):
         extent.append(points)
         if motion is None or part not in numbers:
@@ -135,6 +124,6 @@ def _duration(meshes: Sequence[tuple[Floats, Ints]], motion: Motion) -> float:
     times = []
     for n, part in enumerate(motion.parts):
         half = float(np.linalg.norm(np.ptp(meshes[part][0], axis=0))) / 2
-        speed = np.linalg.norm(motion.translations[n]) + np.linalg.norm(motion.rotations[n]) * half
-        times.append(_FAR * half / float(speed))
+        fastest = speed(meshes[part][0], motion.translations[n], motion.rotations[n])
+        times.append(_FAR * half / fastest)
     return min(times)

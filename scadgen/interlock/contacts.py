@@ -70,7 +70,9 @@ def default_tolerance(meshes: Sequence[Mesh]) -> float:
     return float(_TOLERANCE * np.median(diagonals))
 
 
-def find_contacts(meshes: Sequence[Mesh], tolerance: float) -> Contacts:
+def find_contacts(
+    meshes: Sequence[Mesh], tolerance: float, smooth: Sequence[Floats] | None = None
+) -> Contacts:
     """Contacts between all parts.
 
     Parameters
@@ -80,6 +82,9 @@ def find_contacts(meshes: Sequence[Mesh], tolerance: float) -> Contacts:
     tolerance
         Distance up to which faces touch, in the meshes' unit, above 0.  Parts thinner than
         it let the faces on both their sides touch each other.
+    smooth
+        ``(m, 3, 3) float`` for each part: normals at the corners of its triangles, from
+        which those of contacts are interpolated; None for the triangles' own.
 
     Returns
     -------
@@ -101,6 +106,7 @@ def find_contacts(meshes: Sequence[Mesh], tolerance: float) -> Contacts:
     sound = size > 0
     corners, owner, across, size = corners[sound], owner[sound], across[sound], size[sound]
     normals = across / size[:, None]
+    bent = None if smooth is None else np.concatenate(smooth)[sound]
     found = []
     low, high = corners.min(axis=1) - tolerance / 2, corners.max(axis=1) + tolerance / 2
     for one, other in near_pairs(low, high, owner):
@@ -110,7 +116,11 @@ def find_contacts(meshes: Sequence[Mesh], tolerance: float) -> Contacts:
         normal = across[a] - across[b]
         normal /= np.linalg.norm(normal, axis=1)[:, None]
         place, pair = _overlaps(corners[a], corners[b], normal, tolerance)
-        found.append((place, normal[pair], owner[a][pair], owner[b][pair]))
+        a, b, normal = a[pair], b[pair], normal[pair]
+        if bent is not None:
+            normal = _between(corners[a], bent[a], place) - _between(corners[b], bent[b], place)
+            normal /= np.linalg.norm(normal, axis=1)[:, None]
+        found.append((place, normal, owner[a], owner[b]))
     if not found:
         nothing, none = np.empty((0, 3)), np.empty(0, dtype=np.int64)
         return Contacts(nothing, nothing, none, none)
@@ -133,6 +143,17 @@ def _overlaps(a: Floats, b: Floats, normal: Floats, tolerance: float) -> tuple[F
     level = (below[pair, corner] + above[pair, corner]) / 2
     local = np.column_stack([polygon[pair, corner], level])
     return origin[pair] + np.einsum("kd,kdx->kx", local, frame[pair]), pair
+
+
+def _between(triangle: Floats, values: Floats, points: Floats) -> Floats:
+    """What triangles have at points over them, by what they have at their corners."""
+    sides = triangle[:, 1:] - triangle[:, :1]
+    normal = np.cross(sides[:, 0], sides[:, 1])
+    off = points - triangle[:, 0]
+    share = np.stack([np.cross(off, sides[:, 1]), np.cross(sides[:, 0], off)], axis=1)
+    share = np.einsum("pkx,px->pk", share, normal) / (normal**2).sum(axis=1)[:, None]
+    steps = values[:, 1:] - values[:, :1]
+    return np.asarray(values[:, 0] + np.einsum("pk,pkx->px", share, steps))
 
 
 def _height(triangle: Floats, points: Floats) -> Floats:

@@ -7,7 +7,8 @@ equilibrium.  They are the certificate; `certificate.check_certificate` checks i
 of the code here.
 
 1. Look for the forces by Newton's method; where they exist that takes milliseconds.
-2. Else see whether a single part moves, straight first: the motion easiest to understand.
+2. Else see whether a single part moves, straight first: the motion easiest to understand, along
+   an axis of coordinates or a normal if that is possible.
 3. Else maximise the sum of A x with A x >= 0 and |x| <= 1: a motion of several parts.  A
    motion along which all contacts slide has A x = 0; only the rank shows it.
 4. Else let every contact have a gap of `ROUNDING`: what then moves by 1 is only jammed by
@@ -77,12 +78,16 @@ class Motion:
         ``(parts, 3) float``: rotation about it, in radians per unit of time.
     slides
         Whether all contacts only slide.
+    rounded
+        Whether it is of round faces, not of the facets that stand for them: then contacts
+        of facets may close in.
     """
 
     parts: tuple[int, ...]
     translations: Floats
     rotations: Floats
     slides: bool
+    rounded: bool = False
 
 
 def verdict(assembly: Assembly) -> Certificate | Motion:
@@ -120,7 +125,9 @@ def verdict(assembly: Assembly) -> Certificate | Motion:
             if isinstance(alone, Motion):
                 return alone
     else:
-        straight = _follow(csr_array(csc_array(assembly.rows)[:, :3]), chosen)
+        shifts = csr_array(csc_array(assembly.rows)[:, :3])
+        plain = _plain(shifts, chosen)
+        straight = _follow(shifts, chosen) if plain is None else plain
         if isinstance(straight, np.ndarray):
             return _motion(assembly, np.concatenate([straight, np.zeros(3)]))
     found = _follow(assembly.rows, chosen)
@@ -146,6 +153,22 @@ def _adrift(assembly: Assembly) -> list[int]:
     adrift = [part for part in assembly.free if label[part] not in label[held]]
     # Those that hang together move together.
     return [part for part in adrift if label[part] == label[adrift[0]]]
+
+
+def _plain(shifts: csr_array, chosen: Ints) -> Floats | None:
+    """A straight motion along an axis of coordinates, else a normal: the one that opens most."""
+    some = shifts[chosen]
+    normals = np.unique(some.toarray().round(9) + 0.0, axis=0)
+    # A contact of other parts has no normal here.
+    for ways in (np.eye(3), normals[normals.any(axis=1)]):
+        both = np.concatenate([ways, -ways])
+        both = both[(some @ both.T).min(axis=0) >= -ROUNDING]
+        separation = shifts @ both.T
+        good = np.flatnonzero(separation.min(axis=0, initial=0.0) >= -ROUNDING)
+        if len(good):
+            opens = separation[:, good].mean(axis=0).round(9)
+            return np.asarray(both[good[np.argmax(opens)]])
+    return None
 
 
 def _follow(rows: csr_array, chosen: Ints) -> Floats | Certificate:

@@ -1,0 +1,207 @@
+"""Parts that turn in each other although the facets of their round faces lock.
+
+The facets of two round faces are saw-teeth: to first order they lock by themselves, however
+wide the gap.  So where they might, round faces get the normals that they were drawn from:
+across edges where facets meet at a small angle the normals at corners are means, and in
+between they change steadily.  The motions along which contacts only slide by these normals,
+nearly, are the least eigenvectors of a matrix of six rows (Gelfand and Guibas, Shape
+segmentation using local slippage analysis, 2004).  Such a motion counts if the parts as they
+are can follow it some way and overlap nowhere deeper than facets are off the round faces.
+
+Bodies that turn until something stops them after less than that way are not found, nor are
+motions in which round faces part, nor sets of parts other than the ones that are asked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import chain
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.linalg import eigh
+
+from scadgen.interlock.contacts import Contacts, Mesh, find_contacts
+from scadgen.interlock.follow import middle, screw
+from scadgen.interlock.path import united
+from scadgen.interlock.verdict import Motion
+from scadgen.solid.affine import Floats, Ints
+
+if TYPE_CHECKING:
+    from manifold3d import Manifold
+
+__all__ = ["round_motions", "smooth_normals"]
+
+#: Cosine of the angle below which facets that meet are of one round face.
+_ROUND = np.cos(np.radians(20.0))
+
+#: Least change of a normal by which a face counts as round.
+_BENT = 1e-3
+
+#: Speed at which contacts may close in, root mean square, as a share of their own.
+_SLIP = 0.02
+
+#: How far the fastest contact follows a motion, in tolerances: no play in a gap goes so far.
+_FAR = 10.0
+
+#: Places that are looked at on the way.
+_PLACES = 12
+
+#: Depth of an overlap, as a share of all parts' size, that is rounding.
+_ROUNDING = 1e-6
+
+#: How nearly a motion must turn about an axis to be told by that axis.
+_ALONG = 0.02
+
+
+def round_motions(
+    meshes: Sequence[Mesh], contacts: Contacts, tolerance: float, bodies: Sequence[Sequence[int]]
+) -> list[Motion | None]:
+    """Motions along which round faces slide.
+
+    Parameters
+    ----------
+    meshes
+        The parts, closed and oriented.
+    contacts
+        Where they touch within the tolerance.
+    tolerance
+        That distance.
+    bodies
+        Numbers of the parts of each body, which moves as one while all others stand still.
+
+    Returns
+    -------
+    motions
+        One a body, None where none is found.
+
+    Raises
+    ------
+    InvariantError
+        If one of the meshes is not a solid.
+    """
+    normals = [smooth_normals(*mesh) for mesh in meshes]
+    off = [_off(*mesh, normal) for mesh, normal in zip(meshes, normals, strict=True)]
+    corners = np.concatenate([points for points, _ in meshes])
+    rounding = _ROUNDING * float(np.linalg.norm(np.ptp(corners, axis=0)))
+    if max(off) <= rounding:
+        return [None] * len(bodies)
+    smooth = find_contacts(meshes, tolerance, normals)
+    bent = np.linalg.norm(smooth.normals - contacts.normals, axis=1) > _BENT
+    found: list[Motion | None] = []
+    for body in bodies:
+        inside = np.isin(smooth.first, body)
+        mine = np.flatnonzero(inside != np.isin(smooth.second, body))
+        others = [n for n in range(len(meshes)) if n not in body]
+        depth = rounding + min(max(off[n] for n in body) + max(off[n] for n in others), tolerance)
+        motion = None
+        if bent[mine].any():
+            motion = _slides(meshes, smooth.some(mine), body, _FAR * tolerance, depth)
+        found.append(motion)
+    return found
+
+
+def smooth_normals(points: Floats, triangles: Ints) -> Floats:
+    """Normals at the corners of facets, of the round faces that they stand for.
+
+    Parameters
+    ----------
+    points
+        ``(v, 3) float``; equal points have one number.
+    triangles
+        ``(m, 3) int``.
+
+    Returns
+    -------
+    normals
+        ``(m, 3, 3) float``: at each corner the mean of the facets there that meet this one
+        below 20 degrees, weighted by their angles, so that it matters not how flat faces are
+        cut into triangles.
+    """
+    corners = points[triangles]
+    ahead, back = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+    across = np.cross(ahead, back)
+    length = np.linalg.norm(across, axis=2)
+    angle = np.arctan2(length, (ahead * back).sum(axis=2)).ravel()
+    unit = across[:, 0] / np.maximum(length[:, :1], 1e-300)
+    # Facets of one plane count as one, which keeps the pairs few where many meet.
+    sign = np.column_stack([triangles.ravel(), np.repeat(unit.round(6), 3, axis=0)])
+    _, first, group = np.unique(sign, axis=0, return_index=True, return_inverse=True)
+    group = group.reshape(-1)
+    vertex, normal = triangles.ravel()[first], np.repeat(unit, 3, axis=0)[first]
+    weight = np.bincount(group, weights=angle)
+    total = np.zeros((len(first), 3))
+    count = np.bincount(vertex, minlength=len(points))
+    start = np.cumsum(count) - count
+    # Groups are in the order of their vertices: each meets the one some steps on, in turn.
+    place = np.arange(len(first)) - start[vertex]
+    for step in range(int(count.max(initial=0))):
+        here = np.flatnonzero(step < count[vertex])
+        other = start[vertex[here]] + (place[here] + step) % count[vertex[here]]
+        near = (normal[here] * normal[other]).sum(axis=1) > _ROUND
+        total[here[near]] += weight[other[near], None] * normal[other[near]]
+    total /= np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None]
+    return np.asarray(total[group].reshape(-1, 3, 3))
+
+
+def _off(points: Floats, triangles: Ints, normals: Floats) -> float:
+    """How far facets are at most off the round faces that they stand for."""
+    along = np.roll(points[triangles], -1, axis=1) - points[triangles]
+    turn = np.roll(normals, -1, axis=1) - normals
+    return float(np.abs((along * turn).sum(axis=2)).max(initial=0.0)) / 8
+
+
+def _slides(
+    meshes: Sequence[Mesh], contacts: Contacts, body: Sequence[int], far: float, depth: float
+) -> Motion | None:
+    """A motion of a body that its contacts nearly allow and that its mesh can follow."""
+    points = np.concatenate([meshes[n][0] for n in body])
+    about, size = middle(points), float(np.linalg.norm(np.ptp(points, axis=0))) / 2
+    moving = united([meshes[n] for n in body])
+    rest = united([mesh for n, mesh in enumerate(meshes) if n not in body])
+    arms = (contacts.points - about) / size
+    for x in _slippage(arms, contacts.normals):
+        t, w = x[:3], x[3:] / size
+        fastest = np.linalg.norm(t + np.cross(x[3:], arms), axis=1).max()
+        poses = (screw(about, t, w, k * far / fastest / _PLACES) for k in range(1, _PLACES + 1))
+        if all(_depth(moving.transform(pose), rest) <= depth for pose in poses):
+            return _motion(meshes, body, about, t, w)
+    return None
+
+
+def _slippage(arms: Floats, normals: Floats) -> Iterator[Floats]:
+    """Motions by which contacts nearly slide, about the axes of coordinates first."""
+    rows = np.column_stack([normals, np.cross(arms, normals)])
+    blocks = np.zeros((len(arms), 3, 6))
+    blocks[:, :, :3] = np.eye(3)
+    blocks[:, :, 3:] = np.cross(np.eye(3), arms[:, None]).transpose(0, 2, 1)
+    velocity = blocks.reshape(-1, 6)
+    speeds = velocity.T @ velocity
+    speeds += 1e-9 * np.trace(speeds) * np.eye(6)
+    values, vectors = eigh(rows.T @ rows, speeds)
+    free = vectors[:, values <= _SLIP**2]
+    shares = np.linalg.pinv(free[3:])
+    about = [free @ shares[:, k] for k in range(3) if free.size]
+    straight = [x for k, x in enumerate(about) if np.abs(x[3:] - np.eye(3)[k]).max() < _ALONG]
+    for x in chain(straight, free.T):
+        yield x
+        yield -x
+
+
+def _depth(moving: Manifold, rest: Manifold) -> float:
+    """Mean thickness of the thickest piece that two solids share."""
+    pieces = (moving ^ rest).decompose()
+    return max((2 * p.volume() / p.surface_area() for p in pieces if p.volume() > 0), default=0.0)
+
+
+def _motion(
+    meshes: Sequence[Mesh], body: Sequence[int], about: Floats, t: Floats, w: Floats
+) -> Motion:
+    """The motion of a body by its parts."""
+    arms = np.array([middle(meshes[n][0]) for n in body]) - about
+    sizes = np.array([np.linalg.norm(np.ptp(meshes[n][0], axis=0)) / 2 for n in body])
+    translations, rotations = t + np.cross(w, arms), np.tile(w, (len(body), 1))
+    largest = max(np.abs(translations).max(), np.abs(rotations * sizes[:, None]).max())
+    return Motion(
+        tuple(body), translations / largest, rotations / largest, slides=True, rounded=True
+    )
