@@ -58,8 +58,8 @@ def test_a_burr_is_locked_with_its_key_held(run, tmp_path, kind):
     assert (code, err) == (1, "")
     assert out.startswith("movable\n")
     assert "held         slot, the largest part" in out
-    assert "bar         moves along (0, 0, 1)" in out
-    assert "keys         bar, " in out
+    assert "bar         moves along +z" in out
+    assert "keys         bar, rail\n" in out
     code, out, err = run(*files, "--hold", "slot,bar")
     assert (code, err) == (0, "")
     assert out.startswith("locked\n")
@@ -98,6 +98,75 @@ def test_a_file_with_several_bodies_is_several_parts(run, tmp_path, kind):
     first = next(n for n in found["alone"] if n != key)
     assert run(file, "--hold", f"{key},{first}")[0] == 0
     assert held
+
+
+def test_objects_give_their_names_to_parts(run, tmp_path):
+    import trimesh
+
+    lid = box((0, 0, 3), (4, 4, 4))
+    parts = {"box": box((0, 0, 0), (4, 4, 1)), "block": box((1, 1, 1), (2, 2, 2)), "lid, top": lid}
+    for kind in ("3mf", "obj"):
+        scene = trimesh.Scene()
+        for name, mesh in parts.items():
+            scene.add_geometry(trimesh.Trimesh(*mesh, process=False), geom_name=name)
+        file = tmp_path / f"boxed.{kind}"
+        scene.export(file)
+        names = [*json.loads(run(file, "--json")[1])["alone"]]
+        assert names == (["box", "block", "lid, top"] if kind == "3mf" else names)
+        assert {name.partition(",")[0] for name in names} == {"box", "block", "lid"}
+        code, out, _ = run(file, "--hold", "lid, top", "--hold", "box", "--json")
+        assert code == 1
+        assert sorted(json.loads(out)["held"]) == ["box", "lid, top"]
+
+
+def test_objects_that_share_a_surface_are_one_part(run, tmp_path):
+    low, high = write(tmp_path, [box((0, 0, 0), (1, 1, 1)), box((0, 0, 1), (1, 1, 2))], "ab", "obj")
+    lines = (tmp_path / "b.obj").read_text().splitlines()
+    first = next(n for n, line in enumerate(lines) if line.startswith("f"))
+    lines[first + 4 : first + 4] = ["o side"]
+    lines[first:first] = ["o top"]
+    (tmp_path / "b.obj").write_text("\n".join(lines) + "\n")
+    code, out, _ = run(low, high, "--json")
+    assert code == 1
+    assert sorted(json.loads(out)["alone"]) == ["a", "b"]
+
+
+def test_held_parts_are_no_keys(run, tmp_path):
+    files = write(tmp_path, puzzles.three_piece_burr(), BURR)
+    assert json.loads(run(*files, "--json")[1])["keys"] == ["bar", "rail"]
+    assert json.loads(run(*files, "--hold", "rail", "--json")[1])["keys"] == ["bar", "slot"]
+    assert json.loads(run(*files, "--hold", "bar", "--json")[1])["keys"] == []
+    tube = write(tmp_path, puzzles.peg_in_tube(), ("tube", "peg"))
+    assert json.loads(run(*tube, "--json")[1])["keys"] == ["peg"]
+
+
+def test_a_motion_is_told_up_to_what_it_touches(run, tmp_path):
+    tray = box((0, 0, 0), (8, 8, 1))
+    meshes = [tray, box((3, 3, 1), (5, 5, 3)), box((0, 0, 6), (8, 8, 7))]
+    files = write(tmp_path, meshes, ("tray", "block", "lid"))
+    png = tmp_path / "a.png"
+    code, out, _ = run(*files, "--hold", "tray,lid", "--png", png)
+    assert code == 1
+    assert "block        moves along +z" in out
+    assert "way          moves 3 mm, then touches lid" in out
+    way = json.loads(run(*files, "--hold", "tray,lid", "--json")[1])["motion"]["way"]
+    assert way["mm"] == pytest.approx(3, abs=0.01)
+    assert way["degrees"] == 0
+    assert way["touches"] == "lid"
+    free = run(*files[:2], "--json")[1]
+    assert json.loads(free)["motion"]["way"]["touches"] is None
+
+
+def test_an_axle_in_a_round_hole_turns(run, tmp_path):
+    files = write(tmp_path, puzzles.axle_in_hub(4.8, 100), ("hub", "axle"))
+    code, out, _ = run(*files)
+    assert code == 1
+    assert out.startswith("movable\n")
+    assert "axle        turns about +z through (0, 0, 0) (round faces)" in out
+    assert "keys         none" in out
+    found = json.loads(run(*files, "--json")[1])
+    assert found["motion"]["round_faces"]
+    assert found["certificate"] is None
 
 
 def test_text_stl_and_ply_are_read(run, tmp_path):
@@ -217,7 +286,8 @@ def test_other_requests_that_cannot_be_met_are_refused(refused, tmp_path):
 
 
 def test_a_solver_that_fails_gives_its_status_and_no_verdict(refused, tmp_path, monkeypatch):
-    files = write(tmp_path, puzzles.three_piece_burr(), BURR)
+    meshes, _ = puzzles.placed(puzzles.three_piece_burr(), np.random.default_rng(1))
+    files = write(tmp_path, meshes, BURR)
     failed = OptimizeResult(status=4, message="numerical\ndifficulties", x=None)
     monkeypatch.setattr(program, "linprog", lambda *_, **__: failed)
     assert "status 4, numerical difficulties" in refused(*files)

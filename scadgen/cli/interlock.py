@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import json
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,8 +26,9 @@ _FILE = click.Path(path_type=Path)
 @click.argument("files", metavar="FILE...", nargs=-1, required=True, type=_FILE)
 @click.option(
     "--hold",
+    multiple=True,
     metavar="NAMES",
-    help="Parts that are held fast, with commas between.  [default: the largest]",
+    help="Parts that are held fast, with commas between; adds up.  [default: the largest]",
 )
 @click.option(
     "--tolerance",
@@ -38,7 +41,7 @@ _FILE = click.Path(path_type=Path)
 @click.option("--png", type=_FILE, help="Draw the motion, or the parts at rest, into this file.")
 def interlock(
     files: tuple[Path, ...],
-    hold: str | None,
+    hold: tuple[str, ...],
     tolerance: float | None,
     as_json: bool,  # noqa: FBT001  click passes flags so
     gif: Path | None,
@@ -46,8 +49,10 @@ def interlock(
 ) -> int:
     """Say whether parts, placed as assembled, hold each other: STL, 3MF, OBJ, PLY or OFF.
 
-    A file with several bodies is several parts: name.1, name.2.  To first order, from the
-    faces that touch; locked means proven, with a certificate that is checked again.
+    A file with several bodies is several parts: name.1, name.2, or as its objects are named.
+    To first order, from the faces that touch; locked means proven, with a certificate that is
+    checked again.  Round faces that only their facets lock count as round if the parts as
+    they are can turn ten tolerances without overlap.
 
     Exit status 0 if they are locked, 1 if something can move.
 
@@ -55,7 +60,7 @@ def interlock(
     scadgen interlock burr/*.stl --hold piece1
     scadgen interlock puzzle.3mf --tolerance 0.4 --gif motion.gif
     """  # noqa: D301  click wants the character
-    from scadgen.interlock.keys import alone, keys
+    from scadgen.interlock.keys import keys
     from scadgen.interlock.verdict import Motion
     from scadgen.tools.read_mesh import read_parts
 
@@ -70,26 +75,31 @@ def interlock(
         say("looking for a motion")
         answer, facts = _judge(meshes, contacts, held)
         say("looking for parts that move alone")
-        motions = [m if isinstance(m, Motion) else None for m in alone(meshes, contacts)]
-        order = [names[part] for part, _ in keys(meshes, contacts)]
-    motion = answer if isinstance(answer, Motion) else None
+        motion = answer if isinstance(answer, Motion) else None
+        motion, motions = _alone(meshes, contacts, near, held, motion)
+        order = keys(meshes, contacts, held)
+        if not (order or hold):
+            # The largest part may itself be the key; nobody asked to hold it.
+            order = keys(meshes, contacts)
+        say("following the motion")
+        until, way = _followed(names, meshes, motion)
     report = {
         "locked": motion is None,
         "held": [names[part] for part in held],
         "tolerance": near,
         "contacts": len(contacts),
-        "certificate": facts,
-        "motion": _as_json(names, motion) if motion else None,
+        "certificate": facts if motion is None else None,
+        "motion": {**_as_json(names, motion), "way": way} if motion else None,
         "alone": {
             n: _as_json(names, m) if m else None for n, m in zip(names, motions, strict=True)
         },
-        "keys": order,
+        "keys": [names[part] for part, _ in order],
     }
     if as_json:
         click.echo(json.dumps(report, indent=1))
     else:
-        _say(names, meshes, report, motion, motions, defaulted=hold is None)
-    _draw(meshes, motion, gif, png)
+        _say(names, meshes, report, motion, motions, defaulted=not hold)
+    _draw(meshes, motion, until, gif, png)
     return 0 if motion is None else 1
 
 
@@ -106,22 +116,24 @@ def _check_pictures(files: tuple[Path, ...], gif: Path | None, png: Path | None)
         check_writable(path)
 
 
-def _held(names: list[str], meshes: list[Mesh], hold: str | None) -> list[int]:
+def _held(names: list[str], meshes: list[Mesh], hold: tuple[str, ...]) -> list[int]:
     """Numbers of the parts to hold."""
     from scadgen.interlock.assembly import largest_part
 
     if len(names) < 2:
         msg = f"{len(names)} part: must be at least two; name more files"
         raise InputError(msg)
-    if hold is None:
+    if not hold:
         return [largest_part(meshes)]
-    chosen = [name.strip() for name in hold.split(",")]
+    # A name may have commas of its own.
+    lists = ([text] if text in names else text.split(",") for text in hold)
+    chosen = [name.strip() for name in itertools.chain(*lists)]
     for name in chosen:
         if name not in names:
             msg = f"--hold {name}: must be one of {', '.join(names)}"
             raise InputError(msg)
     if len(set(chosen)) == len(names):
-        msg = f"--hold {hold}: holds all parts; leave at least one free"
+        msg = f"--hold {','.join(hold)}: holds all parts; leave at least one free"
         raise InputError(msg)
     return sorted(names.index(name) for name in set(chosen))
 
@@ -131,8 +143,9 @@ def _check_overlaps(names: list[str], meshes: list[Mesh]) -> None:
 
     if found := overlaps(meshes):
         a, b, shared = max(found, key=lambda pair: pair[2])
+        others = f", {len(found)} pairs in all" if len(found) > 1 else ""
         msg = (
-            f"{names[a]} and {names[b]} overlap by {shared:.6g} mm3, {len(found)} pairs in all: "
+            f"{names[a]} and {names[b]} overlap by {shared:.6g} mm3{others}: "
             "parts must be placed as assembled"
         )
         raise InputError(msg)
@@ -180,6 +193,47 @@ def _judge(
     }
 
 
+def _alone(
+    meshes: list[Mesh], contacts: Contacts, near: float, held: list[int], motion: Motion | None
+) -> tuple[Motion | None, list[Motion | None]]:
+    """The motion, of round faces if there is no other, and that of each part alone."""
+    from scadgen.interlock.keys import alone
+    from scadgen.interlock.round import round_motions
+    from scadgen.interlock.verdict import Motion
+
+    motions = [m if isinstance(m, Motion) else None for m in alone(meshes, contacts)]
+    stuck = [part for part, found in enumerate(motions) if found is None]
+    free = [part for part in range(len(meshes)) if part not in held]
+    together = [free] if motion is None and len(free) > 1 else []
+    bodies = [[part] for part in stuck] + together
+    turning = round_motions(meshes, contacts, near, bodies)
+    for part, found in zip(stuck, turning, strict=False):
+        motions[part] = found
+    if motion is None:
+        own = [motions[part] for part in free]
+        motion = next((m for m in (*own, *turning[len(stuck) :]) if m), None)
+    return motion, motions
+
+
+def _followed(
+    names: list[str], meshes: list[Mesh], motion: Motion | None
+) -> tuple[float, dict[str, Any] | None]:
+    """How long parts can follow a motion, and what to say of it."""
+    import numpy as np
+
+    from scadgen.interlock.follow import first_touch
+
+    if motion is None or motion.rounded:
+        # Facets that rub would seem to stop what turns.
+        return math.inf, None
+    until, touched = first_touch(meshes, motion)
+    return until, {
+        "mm": until * float(np.linalg.norm(motion.translations, axis=1).max()),
+        "degrees": math.degrees(until * np.linalg.norm(motion.rotations, axis=1).max()),
+        "touches": None if touched is None else names[touched],
+    }
+
+
 def _say(
     names: list[str],
     meshes: list[Mesh],
@@ -202,6 +256,8 @@ def _say(
     if motion:
         slides = ", contacts only slide" if motion.slides else ""
         click.echo(f"  motion       {', '.join(names[n] for n in motion.parts)}{slides}")
+        if way := report["motion"]["way"]:
+            click.echo(f"  way          {_way(motion, way)}")
     click.echo(f"  keys         {', '.join(report['keys']) or 'none: no part comes free alone'}")
     click.echo("")
     rows: list[tuple[str, ...]] = [
@@ -216,6 +272,13 @@ def _say(
         table(("part", "", "alone"), rows)
 
 
+def _way(motion: Motion, way: dict[str, Any]) -> str:
+    """Say how far a motion goes."""
+    turns = motion.rotations.any() and way["mm"] < 1e-3
+    far = f"turns {way['degrees']:.3g} degrees" if turns else f"moves {way['mm']:.3g} mm"
+    return f"{far}, then touches {way['touches']}" if way["touches"] else f"{far}, touching nothing"
+
+
 def _how(meshes: list[Mesh], motion: Motion, part: int) -> str:
     """Say how one part of a motion moves."""
     import numpy as np
@@ -227,11 +290,20 @@ def _how(meshes: list[Mesh], motion: Motion, part: int) -> str:
     half = np.linalg.norm(np.ptp(points, axis=0)) / 2
     speed, spin = float(np.linalg.norm(t)), float(np.linalg.norm(w))
     if spin * half < 1e-3 * speed:
-        return f"moves along {_vector(t / speed)}"
+        return f"moves along {_direction(t / speed)}"
     along = abs(float(t @ w)) / spin
     where = middle + np.cross(w, t) / spin**2
-    text = f"turns about {_vector(w / spin)} through {_vector(where)}"
-    return text + (" and moves along it" if along > 1e-3 * spin * half else "")
+    text = f"turns about {_direction(w / spin)} through {_vector(where)}"
+    text += " and moves along it" if along > 1e-3 * spin * half else ""
+    return text + (" (round faces)" if motion.rounded else "")
+
+
+def _direction(unit: Any) -> str:  # noqa: ANN401  numpy is imported late
+    """A unit vector, by its axis if it is along one."""
+    axis = int(abs(unit).argmax())
+    if abs(unit[axis]) > 1 - 1e-6:
+        return f"{'+' if unit[axis] > 0 else '-'}{'xyz'[axis]}"
+    return _vector(unit)
 
 
 def _vector(values: Any) -> str:  # noqa: ANN401  numpy is imported late
@@ -242,6 +314,7 @@ def _as_json(names: list[str], motion: Motion) -> dict[str, Any]:
     steps = zip(motion.parts, motion.translations, motion.rotations, strict=True)
     return {
         "slides": motion.slides,
+        "round_faces": motion.rounded,
         "parts": [
             {"part": names[n], "translation": t.tolist(), "rotation": w.tolist()}
             for n, t, w in steps
@@ -249,14 +322,16 @@ def _as_json(names: list[str], motion: Motion) -> dict[str, Any]:
     }
 
 
-def _draw(meshes: list[Mesh], motion: Motion | None, gif: Path | None, png: Path | None) -> None:
+def _draw(
+    meshes: list[Mesh], motion: Motion | None, until: float, gif: Path | None, png: Path | None
+) -> None:
     """Write the pictures that were asked for."""
     from scadgen.emit.mesh import write_atomic
     from scadgen.emit.motion import motion_gif, motion_png
 
     if png:
-        write_atomic(png, motion_png(meshes, motion))
+        write_atomic(png, motion_png(meshes, motion, until=until))
     if gif and motion:
-        write_atomic(gif, motion_gif(meshes, motion))
+        write_atomic(gif, motion_gif(meshes, motion, until=until))
     elif gif:
         click.echo(f"scadgen: nothing moves, {gif} is not written", err=True)

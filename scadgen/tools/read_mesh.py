@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -14,10 +15,13 @@ from scadgen.solid.crossing import crossing_faces
 from scadgen.solid.mesh import FLAT, heights, volume
 from scadgen.tools.stl import nothing_inside, read_stl
 
-__all__ = ["FORMATS", "read_bodies", "read_parts"]
+__all__ = ["FORMATS", "read_parts"]
 
 #: The endings of files that can be read.
 FORMATS = ("stl", "3mf", "obj", "ply", "off")
+
+#: Those of them whose objects have names.
+_NAMED = ("3mf", "obj")
 
 #: How many times smaller than the largest a part may be: a metre is 1000 mm.
 _UNITS = 500.0
@@ -41,7 +45,8 @@ def read_parts(paths: Sequence[Path]) -> dict[str, _Mesh]:
     -------
     parts
         Points ``(v, 3) float`` and triangles ``(m, 3) int`` by name: the file's name
-        without its ending, with .1, .2 and so on if it has several bodies.  3MF is turned
+        without its ending; if it has several bodies, the names of its objects in 3MF or OBJ
+        where each is one of a kind, else .1, .2 and so on after the file's.  3MF is turned
         into mm; the others have no unit and are left as they are.
 
     Raises
@@ -50,11 +55,14 @@ def read_parts(paths: Sequence[Path]) -> dict[str, _Mesh]:
         A file that cannot be read or has no faces, a part that is not closed, is flat, is
         inside out or crosses itself, parts of one name, or of sizes that cannot be in one unit.
     """
+    files = [(path, _named_bodies(path)) for path in paths]
+    names = Counter(name for _, found in files for name, _ in found)
     parts: dict[str, _Mesh] = {}
-    for path in paths:
-        found = read_bodies(path)
-        for number, mesh in enumerate(found, 1):
-            name = path.stem if len(found) == 1 else f"{path.stem}.{number}"
+    for path, found in files:
+        named = all(name and names[name] == 1 for name, _ in found)
+        for number, (own, mesh) in enumerate(found, 1):
+            name = own if named else f"{path.stem}.{number}"
+            name = name if len(found) > 1 else path.stem
             if name in parts:
                 msg = f"{path}: there is a part {name} already: files must have different names"
                 raise InputError(msg)
@@ -63,28 +71,29 @@ def read_parts(paths: Sequence[Path]) -> dict[str, _Mesh]:
     return parts
 
 
-def read_bodies(path: Path) -> list[_Mesh]:
-    """Read the bodies in one file; see `read_parts`."""
+def _named_bodies(path: Path) -> list[tuple[str, _Mesh]]:
+    """Read the bodies in one file, and names after the objects that they are in."""
     found = []
-    for mesh in _objects(path):
-        points, triangles = _welded(path, *mesh)
+    for name, given in _objects(path):
+        points, triangles = _welded(path, *given)
         if len(faulty := open_edges(triangles)):
             place = _place(points[faulty[0]].mean(axis=0))
             msg = f"{path}: not closed: {len(faulty)} open edges, one at {place}; repair it first"
             raise InputError(msg)
-        for faces in bodies(points, triangles):
+        several = bodies(points, triangles)
+        for number, faces in enumerate(several, 1):
             used, numbers = np.unique(triangles[faces], return_inverse=True)
             body = points[used], numbers.reshape(-1, 3)
             _check_body(path, *body)
-            found.append(body)
+            found.append((f"{name}.{number}" if name and len(several) > 1 else name, body))
     if not found:
         msg = f"{path}: has no faces"
         raise InputError(msg)
     return found
 
 
-def _objects(path: Path) -> Iterator[_Mesh]:
-    """Meshes in a file, in its order."""
+def _objects(path: Path) -> Iterator[tuple[str, _Mesh]]:
+    """Meshes in a file, in its order, with their names or none."""
     kind = path.suffix.lower().lstrip(".")
     if kind not in FORMATS:
         msg = f"{path}: must be one of {', '.join(FORMATS)}"
@@ -98,19 +107,30 @@ def _objects(path: Path) -> Iterator[_Mesh]:
     size = 84 + 50 * int.from_bytes(head[80:84], "little")
     if kind == "stl" and len(head) == 84 and path.stat().st_size == size:
         try:
-            yield read_stl(path)
+            yield "", read_stl(path)
         except ToolError as error:
             raise InputError(str(error)) from error
         return
     yield from _by_trimesh(path, kind)
 
 
-def _by_trimesh(path: Path, kind: str) -> Iterator[_Mesh]:
+def _by_trimesh(path: Path, kind: str) -> Iterator[tuple[str, _Mesh]]:
     """What trimesh finds in a file, in mm if the file has a unit."""
+    found = _loaded(path, kind)
+    if kind == "obj":
+        # Objects may also be patches of one surface: then only the whole is closed.
+        apart = _loaded(path, kind, {"split_objects": True, "group_material": False})
+        closed = (len(open_edges(_welded(path, *mesh)[1])) == 0 for _, mesh in apart)
+        found = apart if all(closed) else found
+    yield from found
+
+
+def _loaded(path: Path, kind: str, how: dict[str, bool] | None = None) -> list[tuple[str, _Mesh]]:
+    """Names, points and triangles as trimesh reads them."""
     import trimesh  # slow to import
 
     try:
-        scene = trimesh.load_scene(path, file_type=kind, process=False)
+        scene = trimesh.load_scene(path, file_type=kind, process=False, **(how or {}))  # type: ignore[arg-type]
         unit = scene.units if kind == "3mf" else None
         scale = float(trimesh.units.unit_conversion(unit, "mm")) if unit else 1.0
         meshes = scene.dump()
@@ -118,10 +138,18 @@ def _by_trimesh(path: Path, kind: str) -> Iterator[_Mesh]:
         reason = " ".join(str(error).split()) or type(error).__name__
         msg = f"{path}: not a whole {kind.upper()} file ({reason})"
         raise InputError(msg) from error
+    order = list(scene.geometry)
+    found = []
     for mesh in meshes:
         if isinstance(mesh, trimesh.Trimesh):
             points = np.asarray(mesh.vertices, dtype=np.float64) * scale
-            yield points, np.asarray(mesh.faces, dtype=np.int64)
+            own, node = (str(mesh.metadata.get(key) or "") for key in ("name", "node"))
+            place = order.index(own) if own in order else len(order)
+            found.append((place, node, own, (points, np.asarray(mesh.faces, dtype=np.int64))))
+    found.sort(key=lambda one: one[:2])
+    # What has no name gets its number or the file's name for one.
+    none = {path.name, *map(str, range(len(meshes) + 1))} if kind in _NAMED else set(order)
+    return [("" if own in none else own.strip(), mesh) for _, _, own, mesh in found]
 
 
 def _welded(path: Path, points: Floats, triangles: Ints) -> _Mesh:
