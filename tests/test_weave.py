@@ -61,6 +61,11 @@ def test_other_entries_are_refused(entries):
         Weave.from_dict(entries, "mine")
 
 
+def test_entries_that_no_weave_has_are_named():
+    with pytest.raises(InputError, match=r"periods, ring_ratio, span, not arm, play$"):
+        Weave.from_dict({**GOOD, "play": 9.0, "arm": 0.3}, "mine")
+
+
 def test_every_frame_has_a_built_in_weave():
     assert {f"{count}-{key}" for count in VALENCE.values() for key in KEYS} <= set(BUILT_IN)
     assert all(weave.name == name for name, weave in BUILT_IN.items())

@@ -112,8 +112,5 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
 def _state(search: Search) -> str:
     """How far a search has come, in a line."""
     lock = sum(not found.refused for found in search.looked.values())
-    best = f", least play {search.front[0][1].play:.1f}" if search.front else ""
-    return (
-        f"{len(search.looked)} weaves looked at, {lock} lock, "
-        f"{len(search.proved)} taken to proof, {len(search.front)} on the front{best}"
-    )
+    best = f", play {search.front[0][1].play:.1f}" if search.front else ""
+    return f"{len(search.looked)} looked at, {lock} lock{best}"

@@ -98,6 +98,8 @@ class Weave:
         wanted = known - {"stretch"}
         if not isinstance(entries, dict) or not wanted <= set(entries) - {"name"} <= known:
             msg = f"weave {name}: must be a JSON object with {', '.join(sorted(wanted))}"
+            if isinstance(entries, dict) and (strange := set(entries) - known - {"name"}):
+                msg += f", not {', '.join(sorted(map(str, strange)))}"
             raise InputError(msg)
         return cls(**{key: entries[key] for key in known & set(entries)}, name=name)
 
