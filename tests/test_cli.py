@@ -285,10 +285,11 @@ def test_a_process_of_its_own_does_the_same(folder, tmp_path):
     said = shell("export", "hexagonal", "--part", "half", "-o", "half.stl", cwd=tmp_path)
     assert (said.returncode, said.stderr) == (0, b"")
     assert check_stl(tmp_path / "half.stl") > 0
-    said = shell("kit", "triangular", cwd=tmp_path)
+    said = shell("kit", "heptagonal", cwd=tmp_path)
     assert said.returncode == 2
     assert said.stdout == b""
-    assert said.stderr == (b"scadgen: frame = 'triangular': must be one of hexagonal, square\n")
+    assert said.stderr.startswith(b"scadgen: frame 'heptagonal': must be a file that ends in ")
+    assert said.stderr.count(b"\n") == 1
     assert files(tmp_path) == sorted(
         ["half.stl", "hexagonal", *(f"hexagonal/{name}" for name in files(folder))]
     )
@@ -322,8 +323,12 @@ WEAVES = {
 }
 
 BAD_KITS = [
-    ("triangular", (), "frame = 'triangular': must be one of hexagonal, square"),
-    ("", (), "frame = '': must be one of hexagonal, square"),
+    ("heptagonal", (), "frame 'heptagonal': must be a file that ends in .dxf, "),
+    ("", (), "frame '': must be a file that ends in .dxf, "),
+    ("ladder", ("--key", "fixed"), "key = 'fixed': must be one of loose"),
+    ("ladder", ("--rim", "round"), "rim = 'round': must be one of caps, open"),
+    ("ladder", ("--weave", "4-loose"), "weave 4-loose: each joint of this frame has one of its"),
+    ("ladder", ("--radius", "9"), "frame ladder: no option --radius; it has "),
     ("hexagonal", ("--key", "glued"), "key = 'glued': must be one of fixed, loose"),
     ("hexagonal", ("--detail", "ultra"), "detail = 'ultra': must be one of draft, standard, fine"),
     ("hexagonal", ("--rows", "0"), "rows = 0: must be a whole number from 1 to 50"),
@@ -387,7 +392,7 @@ def test_a_kit_that_cannot_be_is_refused(frame, words, message, refused, tmp_pat
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        ((), "Missing argument 'hexagonal|square'"),
+        ((), "Missing argument 'FRAME'"),
         (("hexagonal", "--rows"), "Option '--rows' requires an argument"),
     ],
 )
@@ -403,7 +408,7 @@ EDITS = {
     "truncated": (lambda text: text[: len(text) // 2], "truncated or not JSON"),
     "emptied": (lambda _: "", "truncated or not JSON"),
     "another version": (
-        lambda text: text.replace('"version": 1', '"version": 7'),
+        lambda text: text.replace('"version": 2', '"version": 7'),
         "kit version 7: this scadgen",
     ),
     "another format": (lambda text: text.replace("scadgen-kit", "gear-kit"), "not a sound kit"),

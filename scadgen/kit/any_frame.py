@@ -43,7 +43,7 @@ _LENGTH_DECIMALS = 6
 _ROOM = 1.5
 
 #: What is added to a ring ratio until walls keep away from the ring's edges: they hardly move.
-_WIDER = (0.0, 0.05, 0.1)
+_WIDER = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3)
 
 #: An end of an element: number of its shape, slot there, and whether it is a socket.
 _End = tuple[int, int, bool]
