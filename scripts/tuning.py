@@ -15,7 +15,7 @@ from typing import Any
 import matplotlib as mpl
 import matplotlib.pyplot as plt
 
-from scadgen.joint.weave import BUILT_IN, LIMITS
+from scadgen.joint.weave import BUILT_IN, SHAPE
 
 DOCS = Path(__file__).parents[1] / "docs"
 
@@ -28,7 +28,7 @@ def proved(record: Path) -> tuple[str, list[dict[str, Any]]]:
     """The joint that a record is for, and the weaves in it that are proved."""
     head, *lines = (json.loads(line) for line in record.read_text("utf-8").splitlines())
     found = [
-        {**dict(zip(LIMITS, shape, strict=True)), "play": f["play"], "arm": f["arm"]}
+        {**dict(zip(SHAPE, shape, strict=True)), "play": f["play"], "arm": f["arm"]}
         for kind, shape, f in lines
         if kind == "proof" and not f["refused"]
     ]
@@ -54,7 +54,7 @@ def plot(known: dict[str, list[dict[str, Any]]], path: Path) -> None:
         line = "-" if key == "fixed" else "--"
         axes.plot(*points(best), line, color=colour, marker=mark, markersize=4.5, label=name)
         shape = BUILT_IN[name].shape
-        chosen = [one for one in found if tuple(one[n] for n in LIMITS) == shape]
+        chosen = [one for one in found if tuple(one[n] for n in SHAPE) == shape]
         axes.plot(*points(chosen), "o", color=colour, markersize=11, fillstyle="none")
     axes.set(
         xlabel="thinnest section of the arms, in sides",

@@ -18,7 +18,7 @@ from scipy.spatial import cKDTree
 from scadgen.errors import InputError
 from scadgen.solid.affine import Floats
 
-__all__ = ["BUILT_IN", "LIMITS", "SiteCurve", "Weave", "any_joint", "built_in"]
+__all__ = ["BUILT_IN", "LIMITS", "SHAPE", "SiteCurve", "Weave", "any_joint", "built_in"]
 
 #: What each weave parameter may be: (low, high).
 LIMITS: Mapping[str, tuple[float, float]] = {
@@ -29,6 +29,9 @@ LIMITS: Mapping[str, tuple[float, float]] = {
     "periods": (0.25, 4.0),
     "stretch": (1.0, 20.0),
 }
+
+#: The parameters that every weave has, in the order of `Weave.shape`.
+SHAPE = ("ring_ratio", "span", "amplitude", "bend", "periods")
 
 #: How gently an arm that followed the ring begins to weave, in sides.
 _GENTLE = 0.25

@@ -1,6 +1,6 @@
 """Kits of any frame: a kind of joint for each set of angles, an element for each kind of edge.
 
-Joints are lettered as ``scadgen frame`` letters them.  A connector is named by its joint and its
+Joints have letters.  A connector is named by its joint and its
 edge there, ``connector_A1``, and so are the halves it may be split into: ``half_A1``, and
 ``half_A1_over`` for half B where that is another part.  Edge elements are numbered.
 """
@@ -39,8 +39,9 @@ _DECIMALS = 9
 #: Decimals of the edge length, in mm.
 _LENGTH_DECIMALS = 6
 
-#: Tube between two joints where it may be chosen, in sides: room for two sockets.
-_ROOM = 1.5
+#: Tube between two joints where it may be chosen, in sides: room for two sockets, and for rings
+#: that grow.
+_ROOM = 2.0
 
 #: What is added to a ring ratio until walls keep away from the ring's edges: they hardly move.
 _WIDER = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3)

@@ -16,7 +16,7 @@ from typing import Literal
 
 import numpy as np
 
-from scadgen.joint.weave import LIMITS, Weave
+from scadgen.joint.weave import LIMITS, SHAPE, Weave
 from scadgen.solid.affine import Floats
 from scadgen.tune.judge import Figures, Wish, figures, proof
 from scadgen.tune.record import Record, Shape
@@ -170,7 +170,7 @@ class Search:
 
 def _shape(values: Floats) -> Shape:
     """Parameters that a weave may have, with three decimals."""
-    low, high = np.array([*LIMITS.values()]).T
+    low, high = np.array([LIMITS[name] for name in SHAPE]).T
     r, s, a, b, p = np.clip(values, low, high).round(3).tolist()
     return r, s, a, b, p
 
