@@ -8,7 +8,7 @@ import pytest
 
 from scadgen.cli.main import main
 from scadgen.errors import InputError
-from scadgen.joint.weave import BUILT_IN, LIMITS, Weave
+from scadgen.joint.weave import BUILT_IN, SHAPE, Weave
 from scadgen.tune.judge import Figures, Wish, figures
 from scadgen.tune.record import Record
 from scadgen.tune.run import rounds, start
@@ -32,7 +32,7 @@ def test_the_built_in_weave_is_found_again_and_written(run, tmp_path):
     record, output = tmp_path / "record.jsonl", tmp_path / "weave.json"
     words = ("--valence", 3, "--budget", 60, "--record", record, "-o", output, "--json")
     search = Search(Wish(3, "fixed", 0.2), 1, Record(record, Wish(3, "fixed", 0.2), 1))
-    for _ in rounds(search, start(3), 60):
+    for _ in rounds(search, start(3), 3600):
         if search.front:
             break
     (shape, found), *_ = search.front
@@ -44,7 +44,7 @@ def test_the_built_in_weave_is_found_again_and_written(run, tmp_path):
     best = json.loads(out)[0]
     assert best["play"] <= found.play
     assert Weave.from_dict(json.loads(output.read_text()), "again").shape == tuple(
-        best[name] for name in LIMITS
+        best[name] for name in SHAPE
     )
 
 
