@@ -137,10 +137,9 @@ def partition(kit: Kit, joint: Joint) -> Iterator[Result]:
     values |= {"peg_width": 0.3, "peg_length": 0.4, "bore": 0.1 if "bore" in kit.values else 0.0}
     start, pad = joint.figures["tube_start_sides"], joint.figures["pad_sides"]
     bore = values["bore"] ** 2 * (start - pad)
-    halves = {p.part for p in joint.pieces if p.role in ("half_a", "half_b")}
     content = {
         name: volume(kit.parts[name].points(values), kit.parts[name].triangles)
-        for name in {*joint.connectors, *halves}
+        for name in {*joint.connectors, *joint.half_parts}
     }
     domain = joint.figures["domain_volume_sides3"]
     off = abs(sum(content[name] + bore for name in joint.connectors) / domain - 1)

@@ -119,7 +119,7 @@ def kit(
     \b
     scadgen kit hexagonal -o out/hexagonal
     scadgen kit square --rows 3 --columns 4 --side 8 --clearance 0.15 -o shelf
-    scadgen kit 3.4.6.4 --radius 300 --detail draft -o tiling
+    scadgen kit 4.8.8 --detail draft -o octagons
     scadgen kit drawing.svg --side 6
     """  # noqa: D301  click wants the character
     from scadgen.check.proof import proved

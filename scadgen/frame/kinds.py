@@ -30,8 +30,8 @@ __all__ = ["Kind", "Kinds", "Shape", "choose_kinds"]
 #: Directions as near as this are the same, in radians; twice what sameness allows a joint.
 _ANGLE = 2e-4
 
-#: Keys of a joint at most where all of its shape are to have the same, and choices tried.
-_MOST_KEYS, _CHOICES = 1, 2000
+#: Choices of the same key for all joints of a shape that are tried at most.
+_CHOICES = 2000
 
 #: Directions of a joint at the end of a lone edge: its own, and two caps.
 _LONE = np.array([0.0, 2 * np.pi / 3, 4 * np.pi / 3])
@@ -252,19 +252,13 @@ class _Keys:
         return self._keys
 
     def _alike(self) -> list[set[int]] | None:
-        """The fewest keys that are the same in all joints of a shape, if there are any."""
+        """One key that is the same in all joints of a shape, if that is enough."""
         shapes = {id(shape): shape for shape in self._shapes}
-        most = Counter(id(shape) for shape in self._shapes)
-        choices = [
-            [c for size in range(1, _MOST_KEYS + 1) for c in _subsets(shape, size)]
-            for shape in shapes.values()
-        ]
-        if math.prod(map(len, choices)) > _CHOICES:
+        if math.prod(shape.period for shape in shapes.values()) > _CHOICES:
             return None
-        ways = [dict(zip(shapes, way, strict=True)) for way in itertools.product(*choices)]
-        ways.sort(key=lambda way: sum(len(keys) * most[n] for n, keys in way.items()))
-        for way in ways:
-            keys = [set(way[id(shape)]) for shape in self._shapes]
+        for slots in itertools.product(*(range(shape.period) for shape in shapes.values())):
+            slot_of = dict(zip(shapes, slots, strict=True))
+            keys = [{slot_of[id(shape)]} for shape in self._shapes]
             if self._is_enough(keys):
                 return keys
         return None
@@ -296,19 +290,6 @@ class _Keys:
                 slot,
             ),
         )
-
-
-def _subsets(shape: Shape, size: int) -> list[tuple[int, ...]]:
-    """Sets of slots, of those that a turn maps onto each other the first."""
-    count = len(shape.directions)
-    found: dict[tuple[int, ...], None] = {}
-    for slots in itertools.combinations(range(count), size):
-        turned = (
-            tuple(sorted((slot + shift) % count for slot in slots))
-            for shift in range(0, count, shape.period)
-        )
-        found[min(turned)] = None
-    return list(found)
 
 
 def _forest(frame: Frame) -> NDArray[np.bool_]:
