@@ -18,6 +18,7 @@ from scadgen.joint.joint import (
     check_footprint,
     make_joint,
     site_curves,
+    wall_angles,
 )
 from scadgen.joint.joint import Joint as MadeJoint
 from scadgen.joint.lattice import Lattice, make_lattice, without_corners
@@ -252,14 +253,14 @@ def weave_of(joint: Joint) -> Weave:
 
 def joint_of(joint: Joint, detail: Detail) -> MadeJoint:
     """A kind of joint made anew at some detail, on its own lattice."""
-    return make_joint(
-        joint.directions, weave_of(joint), detail, int(joint.figures["lattice_extra"])
-    )
+    extra = int(joint.figures["lattice_extra"])
+    return make_joint(joint.directions, weave_of(joint), detail, extra, joint.keys)
 
 
 def lattice_of(joint: Joint, detail: Detail) -> tuple[Lattice, tuple[SiteCurve, ...]]:
     """Its lattice and its site curves alone."""
     weave, extra = weave_of(joint), int(joint.figures["lattice_extra"])
     lattice = make_lattice(joint.directions, weave.ring_ratio, detail.cells, extra)
-    curves = site_curves(lattice.edges, weave, detail.samples)
+    walls = wall_angles(lattice.edges, weave, joint.keys)
+    curves = site_curves(lattice.edges, weave, detail.samples, walls)
     return without_corners(lattice, corners_in_the_way(lattice, curves)), curves

@@ -17,17 +17,8 @@ __all__ = ["key_of", "known_ways"]
 
 
 def known_ways(kit: Kit, joint: Joint) -> tuple[Way, ...]:
-    """The known ways out of a joint like this one, which may do.
-
-    For one that is not built in they are those of the two that its weave is between.
-    """
-    built_in = _file().get(key_of(kit, joint))
-    if built_in is not None:
-        return tuple(map(read_way, built_in))
-    near = [
-        key for n in (4, 6) for key in _file() if key.startswith(f"{n} {kit.key} {kit.detail} ")
-    ]
-    return tuple(read_way(entry) for key in near for entry in _file()[key])
+    """The known ways out of a joint, which may do; none for one that is not built in."""
+    return tuple(map(read_way, _file().get(key_of(kit, joint), ())))
 
 
 def key_of(kit: Kit, joint: Joint) -> str:

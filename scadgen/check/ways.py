@@ -5,8 +5,8 @@
    pegs.
 3. The connectors, with their tubes, each alone, until one is left.
 
-A way that is known is proved again for the kit's own solids; only where there is none is
-one searched for.
+A way that is known is proved again for the kit's own solids.  Where there is none, a motion that
+opens all contacts at once is tried; only where there is none of these is a way searched for.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from scadgen.check.openings import Openings
 from scadgen.check.pieces import key_tubes, pieces, tubes
 from scadgen.check.result import Result
 from scadgen.interlock.contacts import Mesh
@@ -40,6 +41,9 @@ _LEAST, _LOOK = 0.05, 2.0
 
 #: Gap, as a share of the clearance, of a way that cannot be much wider.
 _ROOMY = 0.9
+
+#: How far a peg rises out of the ring's hole, in sides.
+_RISE = 1.2
 
 #: Words for several pieces.
 _MANY = {"peg": "pegs", "half": "halves"}
@@ -106,6 +110,7 @@ def come_apart(
     known, present = tuple(known), set(range(len(joint.pieces)))
     while stage := _next(joint, present):
         found: tuple[Way, float] | str | None = bodies.known(stage, known, present)
+        found = found or bodies.opened(stage, present)
         if found is None:
             say(f"searching how {stage.name}")
             found = bodies.searched(stage, present, seconds)
@@ -148,6 +153,10 @@ class _Bodies:
         self.meshes = pieces(kit, joint, values)
         self.tubes = tubes(kit, joint, values)
         self.key_tubes = key_tubes(kit, joint, values) if kit.key == "loose" else {}
+        self._is_loose = kit.key == "loose"
+        self._joint, self._hole = joint, joint.figures["ring_hole_sides"] * self.side
+        self._pad = joint.figures["pad_sides"] * self.side
+        self._openings = Openings(kit, joint)
 
     def bodies(self, moving: tuple[int, ...], present: set[int]) -> tuple[list[Mesh], list[Mesh]]:
         """What moves, and what stays."""
@@ -175,6 +184,37 @@ class _Bodies:
             if gap > 0:
                 return way, gap
         return next(filter(None, (self.widened(way, present) for way in fitting)), None)
+
+    def opened(self, stage: _Stage, present: set[int]) -> tuple[Way, float] | None:
+        """A way for this stage that needs no search, and its smallest gap."""
+        narrow: tuple[Way, float] | None = None
+        for choice in stage.choices:
+            for path in self._proposed(choice[0], present):
+                way = Way(stage.name, choice, _rounded(path))
+                gap = self.gap(way, present)
+                if gap > _ROOMY * self.clearance:
+                    return way, gap
+                if gap > (narrow[1] if narrow else 0):
+                    narrow = way, gap
+        return narrow
+
+    def _proposed(self, piece: int, present: set[int]) -> Iterator[Path]:
+        """Ways for a piece, in sides, that may do."""
+        if self._joint.pieces[piece].role != "peg":
+            yield from self._openings.paths(piece, present)
+        elif self._is_loose:
+            yield self._of_peg(piece)
+
+    def _of_peg(self, piece: int) -> Path:
+        """A loose peg's way into the middle of the ring's hole, and up."""
+        turn = self._joint.pieces[piece].turn
+        along = np.array([np.cos(np.radians(turn)), np.sin(np.radians(turn)), 0.0])
+        reach = self.meshes[piece][0] @ along
+        inwards = reach.max() - self._pad + (self._hole - np.ptp(reach)) / 2
+        steps = np.zeros((3, 6))
+        steps[1:, :3] = -inwards / self.side * along
+        steps[2, 2] = _RISE
+        return Path.through(steps, np.zeros(3))
 
     def widened(self, way: Way, present: set[int]) -> tuple[Way, float] | None:
         """A way drawn away from the walls, if it is one then, and its smallest gap."""

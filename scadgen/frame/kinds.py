@@ -104,6 +104,20 @@ class Kinds:
     turn: Floats
     slots: Ints
 
+    def shape(self, kind: int) -> Shape:
+        """The shape of a kind's joints."""
+        return self.shapes[self.kinds[kind].shape]
+
+    def period(self, kind: int) -> int:
+        """Slots of a kind that differ by this are alike, and so are their keys."""
+        shape, keys = self.shape(kind), self.kinds[kind].keys
+        count = len(shape.directions)
+        return next(
+            turn
+            for turn in range(shape.period, count + 1, shape.period)
+            if {(slot + turn) % count for slot in keys} == set(keys)
+        )
+
     @property
     def shape_of(self) -> Ints:
         """``(n,) int``: the shape of each vertex."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -20,7 +20,15 @@ from scadgen.joint.walls import Key, wedges
 from scadgen.joint.weave import SiteCurve, Weave
 from scadgen.solid.affine import Floats
 
-__all__ = ["DETAILS", "Detail", "Joint", "check_footprint", "make_joint", "site_curves"]
+__all__ = [
+    "DETAILS",
+    "Detail",
+    "Joint",
+    "check_footprint",
+    "make_joint",
+    "site_curves",
+    "wall_angles",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +47,7 @@ class Detail:
     cells: int
 
 
-#: Gaps as near to each other as this are the same, in radians.
+#: Angles as near to each other as this are the same, in radians.
 _ALIKE = 1e-9
 
 #: The levels of detail by name.
@@ -62,6 +70,8 @@ class Joint:
         The lattice its walls were found on.
     curves
         Its site curves, one an edge.
+    walls
+        ``(k,) float``: angle from each edge to the wall after it.
     connectors
         For each edge, its connector with the edge turned to +x.
     halves
@@ -72,21 +82,63 @@ class Joint:
     weave: Weave
     lattice: Lattice
     curves: tuple[SiteCurve, ...]
+    walls: Floats
     connectors: tuple[Surface, ...]
     halves: tuple[tuple[Surface, Surface], ...]
 
 
-def site_curves(edges: Floats, weave: Weave, samples: int) -> tuple[SiteCurve, ...]:
-    """The site curve of each edge."""
-    after = np.diff(np.append(edges, edges[0] + 2 * np.pi))
-    before = np.roll(after, 1)
+def wall_angles(edges: Sequence[float] | Floats, weave: Weave, keys: Collection[int]) -> Floats:
+    """Angle from each edge to the wall after it, ``(k,)``.
+
+    Where the arms of a weave weave in a stretch, a wall beside a key is as near to it as that
+    allows, so that halves are the same, and come out the same way, whatever the gap.  All others
+    are in the middle of their gaps, as are all walls of weaves without one.
+    """
+    gaps = _gaps(np.asarray(edges, dtype=float))
+    if weave.stretch is None:
+        return gaps / 2
+    near = np.minimum(weave.stretch / (2 * weave.ring_ratio), gaps / 2)
+    here = np.isin(np.arange(len(gaps)), list(keys))
+    return np.where(here, near, np.where(np.roll(here, -1), gaps - near, gaps / 2))
+
+
+def site_curves(
+    edges: Floats, weave: Weave, samples: int, walls: Floats | None = None
+) -> tuple[SiteCurve, ...]:
+    """The site curve of each edge.
+
+    Parameters
+    ----------
+    edges
+        Directions, ascending.
+    weave
+        Its weave.
+    samples
+        Of each curve.
+    walls
+        As `wall_angles` gives them; by default in the middle of the gaps.
+    """
+    gaps = _gaps(edges)
+    after = gaps / 2 if walls is None else walls
+    before = np.roll(gaps - after, 1)
     return tuple(
         SiteCurve(weave, float(angle), float(a), float(b), samples)
         for angle, a, b in zip(edges, after, before, strict=True)
     )
 
 
-def make_joint(edges: Sequence[float], weave: Weave, detail: Detail, extra: int = 0) -> Joint:
+def _gaps(edges: Floats) -> Floats:
+    """Angle from each edge to the next."""
+    return np.diff(np.append(edges, edges[0] + 2 * np.pi))
+
+
+def make_joint(
+    edges: Sequence[float],
+    weave: Weave,
+    detail: Detail,
+    extra: int = 0,
+    keys: Collection[int] = (),
+) -> Joint:
     """Decompose a ring into the connectors of its edges.
 
     Parameters
@@ -101,6 +153,8 @@ def make_joint(edges: Sequence[float], weave: Weave, detail: Detail, extra: int 
     extra
         Cells to add to the lattice in each gap; even.  Another lattice cuts the same walls
         elsewhere, which may let them draw back further.
+    keys
+        Edges whose connectors are to be split; walls may be nearer to them.
 
     Raises
     ------
@@ -111,41 +165,47 @@ def make_joint(edges: Sequence[float], weave: Weave, detail: Detail, extra: int 
         apart, whose halves hang together, or that does not own all of its tube's face.
     """
     lattice = make_lattice(edges, weave.ring_ratio, detail.cells, extra)
-    curves = site_curves(lattice.edges, weave, detail.samples)
+    at = wall_angles(lattice.edges, weave, keys)
+    curves = site_curves(lattice.edges, weave, detail.samples, at)
     lattice = without_corners(lattice, corners_in_the_way(lattice, curves))
-    gaps = np.diff(np.append(lattice.edges, lattice.edges[0] + 2 * np.pi))
-    computed = range(_period(gaps))
+    # From each edge to the wall after it, and from there to the next edge.
+    steps = np.column_stack([at, _gaps(lattice.edges) - at])
+    computed = range(_period(steps))
     for edge in computed:
         check_footprint(lattice, curves, edge)
     far = distances(curves, lattice.nodes)
     labels = far.argmin(axis=0)
     walls = list(wedges(lattice, labels))
-    keys = sorted({corner for wedge in walls for corner in wedge.corners})
-    position: dict[Key, Floats] = dict(zip(keys, place(lattice, curves, far, keys), strict=True))
+    corners = sorted({corner for wedge in walls for corner in wedge.corners})
+    places = place(lattice, curves, far, corners)
+    position: dict[Key, Floats] = dict(zip(corners, places, strict=True))
     walls = merge_short_sides(walls, position, 1 / detail.cells)
     walls = fanned(walls, position, curves)
     for index in np.ndindex(labels.shape):
         position["node", 0, index[0], index[1], index[2]] = lattice.nodes[index]
     pairs = [halves(lattice, labels, walls, position, edge) for edge in computed]
     pairs = [
-        (first, half_turn(first)) if _turns_over(gaps, edge) else (first, second)
+        (first, half_turn(first)) if _turns_over(steps, edge) else (first, second)
         for edge, (first, second) in enumerate(pairs)
     ]
     connectors = tuple(simplify(join(first, second, SPLIT)) for first, second in pairs)
-    times = len(gaps) // len(pairs)
-    return Joint(lattice.edges, weave, lattice, curves, connectors * times, tuple(pairs * times))
+    times = len(steps) // len(pairs)
+    return Joint(
+        lattice.edges, weave, lattice, curves, at, connectors * times, tuple(pairs * times)
+    )
 
 
-def _period(gaps: Floats) -> int:
-    """How many edges there are before all gaps come again."""
-    count = len(gaps)
+def _period(steps: Floats) -> int:
+    """How many edges there are before all steps come again."""
+    count = len(steps)
     periods = (n for n in range(1, count + 1) if count % n == 0)
-    return next(n for n in periods if np.allclose(gaps, np.roll(gaps, n), rtol=0, atol=_ALIKE))
+    alike = (n for n in periods if np.allclose(steps, np.roll(steps, n, 0), rtol=0, atol=_ALIKE))
+    return next(alike)
 
 
-def _turns_over(gaps: Floats, edge: int) -> bool:
+def _turns_over(steps: Floats, edge: int) -> bool:
     """Whether a half turn about an edge maps the joint onto itself."""
-    onwards = np.roll(gaps, -edge)
+    onwards = np.roll(steps, -edge, 0).ravel()
     return bool(np.allclose(onwards, onwards[::-1], rtol=0, atol=_ALIKE))
 
 

@@ -22,6 +22,9 @@ __all__ = ["arm", "belongs", "share"]
 #: Halvings of a box before it counts as foreign; its half diagonal is then below 1e-3 sides.
 _HALVINGS = 10
 
+#: What angles may be off by rounding, in radians.
+_ROUNDING = 1e-9
+
 
 def belongs(
     curves: Sequence[SiteCurve], own: int, low: Floats, high: Floats, margin: float
@@ -64,25 +67,33 @@ def _lead(curves: Sequence[SiteCurve], own: int, points: Floats) -> Floats:
     return np.asarray(np.delete(far, own, axis=0).min(axis=0) - far[own])
 
 
-def arm(lattice: Lattice, curves: Sequence[SiteCurve], edge: int) -> float:
-    """Thinnest place of a connector's arms between its edge and the middles of its gaps.
+def arm(lattice: Lattice, curves: Sequence[SiteCurve], edge: int, walls: Floats) -> float:
+    """Thinnest place of a connector's arms between its edge and its walls.
 
     At each plane of the lattice, the widest ball that is known to fit into the arm there: its
     radius is at least the distance to the ring's faces, and at least half the lead of the
-    connector's curve.  Beyond the middle of a gap an arm thins out to its tip by design.
+    connector's curve.  Beyond a wall's middle an arm thins out to its tip by design.
+
+    Parameters
+    ----------
+    lattice, curves
+        The joint's.
+    edge
+        Number of the connector's edge.
+    walls
+        ``(k,) float``: angle from each edge to the wall after it.
 
     Returns
     -------
     thickness
         In sides.
     """
-    count = len(lattice.planes)
-    edges = lattice.edge_planes
-    after, before = (int(edges[(edge + turn) % len(edges)]) for turn in (1, -1))
-    own = int(edges[edge])
-    ahead, behind = ((after - own) % count or count) // 2, ((own - before) % count or count) // 2
-    planes = np.arange(own - behind, own + ahead + 1) % count
-    nodes = lattice.nodes[planes]
+    directions = lattice.edges
+    gap = (directions[edge] - directions[edge - 1] - _ROUNDING) % (2 * np.pi) + _ROUNDING
+    ahead = (lattice.planes - directions[edge]) % (2 * np.pi)
+    behind = (directions[edge] - lattice.planes) % (2 * np.pi)
+    near = (ahead <= walls[edge] + _ROUNDING) | (behind <= gap - walls[edge - 1] + _ROUNDING)
+    nodes = lattice.nodes[near]
     share = np.linspace(0, 1, nodes.shape[1])
     face = np.minimum.outer(np.minimum(share, 1 - share), np.minimum(share, 1 - share))
     ball = np.minimum(_lead(curves, edge, nodes.reshape(-1, 3)).reshape(nodes.shape[:3]) / 2, face)

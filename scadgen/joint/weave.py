@@ -22,7 +22,7 @@ __all__ = ["BUILT_IN", "LIMITS", "SHAPE", "SiteCurve", "Weave", "any_joint", "bu
 
 #: What each weave parameter may be: (low, high).
 LIMITS: Mapping[str, tuple[float, float]] = {
-    "ring_ratio": (0.8, 8.0),
+    "ring_ratio": (0.8, 11.0),
     "span": (0.1, 1.5),
     "amplitude": (0.0, 1.0),
     "bend": (0.0, 1.5),
@@ -125,20 +125,20 @@ class SiteCurve:
         Its shape.
     angle
         Direction of its edge.
-    gap_after, gap_before
-        Angle to the next edge counter-clockwise and clockwise.
+    after, before
+        Angle to the wall counter-clockwise and clockwise; half a gap where it is in the middle.
     samples
         Points from which nearest points are sought; they decide which of several
         nearly equal distances is looked at, not how exact it is.
     """
 
     def __init__(
-        self, weave: Weave, angle: float, gap_after: float, gap_before: float, samples: int
+        self, weave: Weave, angle: float, after: float, before: float, samples: int
     ) -> None:
         self.weave = weave
-        self._arguments = (gap_after, gap_before, samples)
+        self._arguments = (after, before, samples)
         self._angle = angle
-        gaps = weave.ring_ratio * np.array([gap_before, gap_after])
+        gaps = 2 * weave.ring_ratio * np.array([before, after])
         woven = np.minimum(gaps, gaps.max() if weave.stretch is None else weave.stretch)
         self._plain, self._reach = (gaps - woven) / 2, weave.span * woven
         self._rate = np.array(
@@ -310,8 +310,12 @@ BUILT_IN: Mapping[str, Weave] = MappingProxyType(
 )
 
 
-#: Shortest stretch, in sides, in which arms of a joint of any gaps are known to lock.
-_LEAST_STRETCH = 3.4
+#: What the weaves of joints of any gaps share: span, amplitude, the curvature in plan that arms
+#: give up of the ring's, half waves, and the stretch; see ``docs/geometry.md``, "Any joint".
+_ANY = (0.833, 0.3, 0.101, 1.358, 4.752)
+
+#: Smallest gap that is woven all through: a ring of even gaps wider than that is no smaller.
+_WIDEST = math.pi / 2
 
 
 def built_in(valence: int, key: str) -> Weave:
@@ -332,9 +336,9 @@ def built_in(valence: int, key: str) -> Weave:
 def any_joint(least_gap: float) -> Weave:
     """The weave of joints whose gaps differ; see ``docs/geometry.md``, "Any joint".
 
-    In a joint of four even gaps it is the built-in weave for four edges, in one of six that for
-    six.  Between, it goes from one to the other with the ring; the smallest gap is all woven in,
-    and wider ones in a stretch as long as that.
+    The ring is so wide that the smallest gap is as long as the stretch that arms weave in.  So
+    walls are nearly the same in any gap of any joint, and what holds for one of them, that it
+    opens when one of its connectors turns a little on its way up, holds for all.
 
     Parameters
     ----------
@@ -346,37 +350,15 @@ def any_joint(least_gap: float) -> Weave:
     InputError
         It is so small that no ring is wide enough.
     """
-    small, large = BUILT_IN["4-loose"], BUILT_IN["6-loose"]
-    least, most = 2 * math.pi / 4 * small.ring_ratio, 2 * math.pi / 6 * large.ring_ratio
-    # The ring at which the stretch is as long as the gap.
-    growth = (most - least) / (large.ring_ratio - small.ring_ratio)
-    if least_gap >= math.pi / 2:
-        ring = small.ring_ratio
-    elif least_gap <= math.pi / 3:
-        ring = most / least_gap
-    else:
-        ring = (least - growth * small.ring_ratio) / (least_gap - growth)
-    ring = min(math.ceil(100 * ring - 1e-6) / 100, LIMITS["ring_ratio"][1])
-    if ring * least_gap < _LEAST_STRETCH:
-        need = math.degrees(_LEAST_STRETCH / ring)
+    span, amplitude, curl, periods, stretch = _ANY
+    ring = math.ceil(100 * stretch / min(least_gap, _WIDEST) - 1e-6) / 100
+    most = LIMITS["ring_ratio"][1]
+    if ring > most:
+        need = math.degrees(stretch / most)
         msg = (
             f"edges {math.degrees(least_gap):.4g} degrees apart: must be at least {need:.4g} "
-            f"for the largest ring to hold them, of ratio {ring:g}"
+            f"for the largest ring to hold them, of ratio {most:g}"
         )
         raise InputError(msg)
-    share = min((ring - small.ring_ratio) / (large.ring_ratio - small.ring_ratio), 1.0)
-    span, lift, curl, periods, stretch = (
-        (1 - share) * a + share * b
-        for a, b in zip(_free(small, least), _free(large, most), strict=True)
-    )
-    shape = ring, round(span, 3), round(lift, 3), max(0.0, round(1 - curl * ring, 3))
-    return Weave(*shape, round(periods, 3), name="any", stretch=round(stretch, 2))
-
-
-def _free(weave: Weave, stretch: float) -> tuple[float, float, float, float, float]:
-    """What of a weave does not depend on its ring.
-
-    In plan, arms keep less than the ring's curvature: what they give up is the same in any ring.
-    """
-    curl = (1 - weave.bend) / weave.ring_ratio
-    return weave.span, weave.amplitude, curl, weave.periods, stretch
+    bend = max(0.0, round(1 - curl * ring, 3))
+    return Weave(ring, span, amplitude, bend, periods, stretch=stretch, name="any")

@@ -46,7 +46,7 @@ _ROOM = 2.0
 #: What is added to a ring ratio until walls keep away from the ring's edges: they hardly move.
 _WIDER = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3)
 
-#: An end of an element: number of its shape, slot there, and whether it is a socket.
+#: An end of an element: number of its kind of joint, slot there, and whether it is a socket.
 _End = tuple[int, int, bool]
 
 
@@ -62,8 +62,8 @@ def build_frame(request: Request) -> Kit:
     """
     frame = _graph(request)
     kinds = choose_kinds(frame, sameness(frame), rim=request.rim == "caps")
-    weaves = [_weave(frame, kinds, number) for number in range(len(kinds.shapes))]
-    frame = _sized(request, frame, np.array([weaves[n].ring_ratio for n in kinds.shape_of]))
+    weaves = [_weave(frame, kinds, number) for number in range(len(kinds.kinds))]
+    frame = _sized(request, frame, np.array([weaves[n].ring_ratio for n in kinds.kind_of]))
     same = sameness(frame)
     pieces = tuple(
         _pieces(request, frame, kinds, number, weave) for number, weave in enumerate(weaves)
@@ -124,7 +124,7 @@ def _sized(request: Request, frame: Frame, rings: Floats) -> Frame:
 
 
 def _weave(frame: Frame, kinds: Kinds, number: int) -> Weave:
-    """The weave of all joints of one shape.
+    """The weave of all joints of one kind.
 
     Raises
     ------
@@ -132,29 +132,29 @@ def _weave(frame: Frame, kinds: Kinds, number: int) -> Weave:
         Two of its edges are too near each other: says where.
     """
     try:
-        return any_joint(float(kinds.shapes[number].gaps.min()))
+        return any_joint(float(kinds.shape(number).gaps.min()))
     except InputError as error:
         msg = f"{_where(frame, kinds, number)}: {error}"
         raise InputError(msg) from error
 
 
 def _where(frame: Frame, kinds: Kinds, number: int) -> str:
-    """Where the first joint of a shape stands, and its angles."""
-    vertex = int(np.flatnonzero(kinds.shape_of == number)[0])
-    angles = ", ".join(f"{angle:.4g}" for angle in np.degrees(kinds.shapes[number].gaps))
+    """Where the first joint of a kind stands, and its angles."""
+    vertex = int(np.flatnonzero(kinds.kind_of == number)[0])
+    angles = ", ".join(f"{angle:.4g}" for angle in np.degrees(kinds.shape(number).gaps))
     return f"vertex {vertex} at {where(frame.vertices[vertex])}, angles {angles}"
 
 
 def _pieces(request: Request, frame: Frame, kinds: Kinds, number: int, weave: Weave) -> Pieces:
-    """The pieces of all joints of one shape, on a ring hardly wider where need be.
+    """The pieces of all joints of one kind, on a ring hardly wider where need be.
 
     Raises
     ------
     GeometryError
         The weave makes no sound ones: says where.
     """
-    keys = sorted({slot for kind in kinds.kinds if kind.shape == number for slot in kind.keys})
-    directions = kinds.shapes[number].directions.tolist()
+    keys = kinds.kinds[number].keys
+    directions = kinds.shape(number).directions.tolist()
     refusal: GeometryError | None = None
     for wider in _WIDER:
         ring_ratio = min(round(weave.ring_ratio + wider, 2), LIMITS["ring_ratio"][1])
@@ -197,9 +197,9 @@ class _Build:
         return ((far, near) if swapped else (near, far)) + (round(length, _DECIMALS),), swapped
 
     def _end(self, edge: int, end: int) -> _End:
-        kind = self.kinds.kinds[self.kinds.kind_of[self.frame.edges[edge, end]]]
+        number = int(self.kinds.kind_of[self.frame.edges[edge, end]])
         slot = int(self.kinds.slots[edge, end])
-        return kind.shape, slot % self.kinds.shapes[kind.shape].period, slot in kind.keys
+        return number, slot % self.kinds.period(number), slot in self.kinds.kinds[number].keys
 
     def limits(self) -> tuple[Range, ...]:
         """What the live parameters may be, so that all joints and elements are sound."""
@@ -232,11 +232,14 @@ class _Build:
             for (near, far, length), name in self.elements.items()
         ]
         for number, one in enumerate(self.pieces):
-            for slot in range(self.kinds.shapes[number].period):
+            for slot in range(self.kinds.period(number)):
                 solid = connector(one.key, one.connectors[slot])
                 solids.append(replace(solid, name=self._name("connector", number, slot)))
         for number, one in enumerate(self.pieces):
+            period = self.kinds.period(number)
             for slot, (first, second) in one.halves.items():
+                if slot >= period:
+                    continue
                 names = self._halves(number, slot)
                 for name, piece in dict(zip(names, (first, second), strict=True)).items():
                     solids.append(replace(half(one.key, piece), name=name))
@@ -252,8 +255,7 @@ class _Build:
         return key_end(one.key) if socket else connector_end(one.key, one.connectors[slot])
 
     def _name(self, what: str, number: int, slot: int) -> str:
-        period = self.kinds.shapes[number].period
-        return f"{what}_{joint_name(number)}{slot % period + 1}"
+        return f"{what}_{joint_name(number)}{slot % self.kinds.period(number) + 1}"
 
     def _halves(self, number: int, slot: int) -> tuple[str, str]:
         """Names of half A and half B, the same where they are the same part."""
@@ -269,24 +271,19 @@ class _Build:
 
     def joint(self, number: int) -> Joint:
         """A kind of joint, turned so that its first key is along +x."""
-        kind = self.kinds.kinds[number]
-        shape, one = self.kinds.shapes[kind.shape], self.pieces[kind.shape]
+        kind, shape, one = self.kinds.kinds[number], self.kinds.shape(number), self.pieces[number]
         count = len(shape.directions)
         first = kind.keys[0]
         turns = np.degrees(
             (np.roll(shape.directions, -first) - shape.directions[first]) % (2 * np.pi)
         )
-        alike = [n for n, other in enumerate(self.kinds.kinds) if other.shape == kind.shape]
-        name = joint_name(kind.shape) + (str(alike.index(number) + 1) if len(alike) > 1 else "")
-        if len(self.kinds.kinds) == 1:
-            name = ""
         return Joint(
-            name=name,
+            name=joint_name(number) if len(self.kinds.kinds) > 1 else "",
             turns=tuple(turns.round(_DECIMALS).tolist()),
             keys=tuple((slot - first) % count for slot in kind.keys),
             caps=tuple(sorted((slot - first) % count for slot in kind.caps)),
             connectors=tuple(
-                self._name("connector", kind.shape, slot + first) for slot in range(count)
+                self._name("connector", number, slot + first) for slot in range(count)
             ),
             weave=one.joint.weave.as_dict(),
             pieces=tuple(
@@ -299,20 +296,19 @@ class _Build:
         self, number: int, at: tuple[float, float], turn: float, caps: Iterable[int]
     ) -> Iterator[Placement]:
         """The pieces of a joint where it stands: halves, connectors without a tube, pegs."""
-        kind = self.kinds.kinds[number]
-        directions = self.kinds.shapes[kind.shape].directions
+        kind, directions = self.kinds.kinds[number], self.kinds.shape(number).directions
         degrees = np.degrees((turn + directions) % (2 * np.pi)).round(_DECIMALS).tolist()
         for slot in kind.keys:
             for name, flip, role in zip(
-                self._halves(kind.shape, slot), (False, True), ("half_a", "half_b"), strict=True
+                self._halves(number, slot), (False, True), ("half_a", "half_b"), strict=True
             ):
                 yield Placement(name, at, degrees[slot], flip, role)
         first = kind.keys[0]
         for slot in sorted(set(caps) - set(kind.keys), key=lambda s: (s - first) % len(directions)):
-            name = self._name("connector", kind.shape, slot)
+            name = self._name("connector", number, slot)
             yield Placement(name, at, degrees[slot], flip=False, role="cap")
         for slot in kind.keys:
-            yield Placement(self._peg(kind.shape), at, degrees[slot], flip=False, role="peg")
+            yield Placement(self._peg(number), at, degrees[slot], flip=False, role="peg")
 
     def placements(self) -> Iterator[Placement]:
         """Where everything stands: the elements, then the pieces of each joint."""
@@ -323,14 +319,12 @@ class _Build:
             for end, vertex in enumerate(pair):
                 used[vertex].add(int(self.kinds.slots[edge, end]))
             vertex, slot = int(pair[int(swapped)]), int(self.kinds.slots[edge, int(swapped)])
-            shape = self.kinds.shapes[self.kinds.kinds[self.kinds.kind_of[vertex]].shape]
+            shape = self.kinds.shape(int(self.kinds.kind_of[vertex]))
             turn = float(np.degrees(self.kinds.turn[vertex] + shape.directions[slot])) % 360
             role = "cross" if what[0][2] or what[1][2] else "row"
             at = (float(vertices[vertex, 0]), float(vertices[vertex, 1]))
             yield Placement(self.elements[what], at, round(turn, _DECIMALS), flip=False, role=role)
         for vertex, (x, y) in enumerate(vertices.tolist()):
             number = int(self.kinds.kind_of[vertex])
-            kind = self.kinds.kinds[number]
-            count = len(self.kinds.shapes[kind.shape].directions)
-            caps = set(range(count)) - used[vertex]
+            caps = set(range(len(self.kinds.shape(number).directions))) - used[vertex]
             yield from self._standing(number, (x, y), float(self.kinds.turn[vertex]), caps)

@@ -13,7 +13,14 @@ from scadgen.element.ends import connector
 from scadgen.element.pieces import Piece, half
 from scadgen.element.squares import Key
 from scadgen.errors import GeometryError, InvariantError, ScadgenError
-from scadgen.joint.joint import DETAILS, Joint, check_footprint, make_joint, site_curves
+from scadgen.joint.joint import (
+    DETAILS,
+    Joint,
+    check_footprint,
+    make_joint,
+    site_curves,
+    wall_angles,
+)
 from scadgen.joint.lattice import make_lattice
 from scadgen.joint.pieces import SPLIT
 from scadgen.joint.recede import recede
@@ -94,7 +101,9 @@ class Pieces:
             "window_half_width_sides": key.window,
             "window_depth_sides": key.depth,
             "clearance_limit_sides": self.clearance_limit,
-            "thinnest_arm_sides": min(arm(made.lattice, made.curves, edge) for edge in edges),
+            "thinnest_arm_sides": min(
+                arm(made.lattice, made.curves, edge, made.walls) for edge in edges
+            ),
             "domain_volume_sides3": made.lattice.volume(),
             "lattice_extra": float(self.extra),
         }
@@ -133,14 +142,15 @@ def best_pieces(
     """
     detail = DETAILS[level]
     probe = make_lattice(directions, weave.ring_ratio, detail.cells)
-    curves = site_curves(probe.edges, weave, detail.samples)
+    walls = wall_angles(probe.edges, weave, keys)
+    curves = site_curves(probe.edges, weave, detail.samples, walls)
     for edge in range(len(directions)):
         check_footprint(probe, curves, edge)
     best: Pieces | None = None
     refusal: ScadgenError | None = None
     for extra in _LATTICES:
         try:
-            made = make_joint(directions, weave, detail, extra)
+            made = make_joint(directions, weave, detail, extra, keys)
             found = _pieces(made, style, extra, keys, bored=bored)
         except (GeometryError, InvariantError) as error:
             refusal = refusal or error
