@@ -185,7 +185,10 @@ def _request(frame: str, options: dict[str, Any]) -> tuple[Request, tuple[str, .
     own = {"rows", "columns", "key", "rim", "detail", "weave", *lengths}
     values = {n: v for n, v in options.items() if n in lengths and v is not None}
     weave = _weave(options["weave"]) if options["weave"] is not None else None
-    of_frame = {n: v for n, v in options.items() if n not in own and v not in (None, False)}
+    # A length of 0 is given, and wrong, though it equals False.
+    of_frame = {
+        n: v for n, v in options.items() if n not in own and v is not None and v is not False
+    }
     detail, rim, command = options["detail"], options["rim"], _command()
     rows, columns = options["rows"], options["columns"]
     if frame in VALENCE and not of_frame and rim == "caps":
