@@ -5,6 +5,7 @@ import io
 import json
 import math
 import re
+import shutil
 from dataclasses import replace
 
 import pytest
@@ -58,10 +59,18 @@ def run(capsys):
     return call
 
 
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """A kit's folder, to be read only."""
+    place = tmp_path_factory.mktemp("written") / "kit"
+    write_kit(kit("hexagonal"), place)
+    return place
+
+
 @pytest.fixture
-def folder(tmp_path):
-    write_kit(kit("hexagonal"), tmp_path / "kit")
-    return tmp_path / "kit"
+def folder(written, tmp_path):
+    """A kit's folder of one's own."""
+    return shutil.copytree(written, tmp_path / "kit")
 
 
 @pytest.fixture
