@@ -1,4 +1,4 @@
-"""Draws the frames in examples/frames: a star pattern, a trellis, a net of random points.
+"""Draws the frames in examples/frames: patterns of stars, a tiling, a trellis, random ones.
 
 usage: scripts/frames.py [FOLDER]
 """
@@ -44,7 +44,7 @@ def star_pattern() -> str:
             middle = (left + right) / 2
             shapes += [[middle + turn * point for point in kite] for turn in (1j, -1j)]
     scale = SHORTEST / min(abs(b - a) for a, b in itertools.pairwise(kite))
-    return svg([[scale * point for point in shape] for shape in shapes])
+    return svg([[scale * point for point in s] for s in shapes], "Ten-pointed stars and kites")
 
 
 def star_in_decagon() -> list[complex]:
@@ -65,17 +65,40 @@ def kite_in_bow_tie() -> list[complex]:
     return [base, upper.conjugate(), inner, upper]
 
 
-def svg(shapes: list[list[complex]]) -> str:
-    """Polygons as a drawing in mm, y up."""
+def crosses() -> str:
+    """Eight-pointed stars that touch at their tips, with crosses between them."""
+    tip, notch = 1.0, math.sqrt(2 - math.sqrt(2))
+    outline = [tip if k % 2 == 0 else notch for k in range(16)]
+    star = [cmath.rect(r, math.radians(22.5 * k)) for k, r in enumerate(outline)]
+    places = [complex(2 * column, 2 * row) for row in range(2) for column in range(3)]
+    scale = SHORTEST / abs(star[1] - star[0])
+    return svg([[scale * (at + point) for point in star] for at in places], "Stars and crosses")
+
+
+def rough(seed: int = 7, most: float = 1.5) -> str:
+    """Hexagons as a hand draws them: no vertex is further off than this, in mm."""
+    frame = named("hexagonal", edge_length=70.0, rows=2, columns=3)
+    rng = np.random.default_rng(seed)
+    by = most * np.sqrt(rng.random(len(frame.vertices)))
+    turn = 2 * np.pi * rng.random(len(frame.vertices))
+    points = frame.vertices @ (1, 1j) + by * np.exp(1j * turn)
+    return svg([list(points[edge]) for edge in frame.edges], "Hexagons drawn by hand")
+
+
+def svg(shapes: list[list[complex]], title: str) -> str:
+    """Polygons and lines as a drawing in mm, y up."""
     corners = np.concatenate(shapes)
     left, top = corners.real.min(), corners.imag.max()
     width, height = np.ptp(corners.real), np.ptp(corners.imag)
     lists = [" ".join(f"{p.real - left:.6f},{top - p.imag:.6f}" for p in s) for s in shapes]
-    polygons = "\n".join(f'  <polygon points="{points}"/>' for points in lists)
+    polygons = "\n".join(
+        f'  <{"polygon" if len(shape) > 2 else "polyline"} points="{points}"/>'
+        for shape, points in zip(shapes, lists, strict=True)
+    )
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.6f}mm" height="{height:.6f}mm" '
         f'viewBox="0 0 {width:.6f} {height:.6f}">\n'
-        " <title>Ten-pointed stars and kites</title>\n"
+        f" <title>{title}</title>\n"
         f' <g fill="none" stroke="black" stroke-width="2">\n{polygons}\n </g>\n</svg>\n'
     )
 
@@ -96,6 +119,25 @@ def net(seed: int = 13, count: int = 45, least: float = 35.0) -> Frame:
     sides = np.concatenate([triangles[:, pair] for pair in ([0, 1], [1, 2], [2, 0])])
     used, edges = np.unique(np.unique(np.sort(sides, axis=1), axis=0), return_inverse=True)
     return make_frame("net", points[used].round(3), edges.reshape(-1, 2))
+
+
+def cells(seed: int = 63, count: int = 22, shortest: float = 50.0) -> Frame:
+    """Voronoi cells of random points that moved into the middle of theirs, whole ones only."""
+    size = np.array([420.0, 300.0])
+    points = np.random.default_rng(seed).random((count, 2)) * size
+    for _ in range(40):
+        points = middles(points, size)
+    found = Voronoi(points)
+    within = ((found.vertices > 0) & (found.vertices < size)).all(axis=1)
+    edges = np.array([pair for pair in found.ridge_vertices if min(pair) >= 0])
+    edges = edges[within[edges].all(axis=1)]
+    # What is left of cells that the rim cuts off.
+    while (loose := np.bincount(edges.ravel(), minlength=len(within)) == 1).any():
+        edges = edges[~loose[edges].any(axis=1)]
+    used, edges = np.unique(edges, return_inverse=True)
+    vertices, edges = found.vertices[used], edges.reshape(-1, 2)
+    scale = shortest / np.linalg.norm(np.diff(vertices[edges], axis=1), axis=2).min()
+    return make_frame("cells", (vertices * scale).round(3), edges)
 
 
 def middles(points: np.ndarray, size: np.ndarray) -> np.ndarray:
@@ -124,10 +166,15 @@ def main(folder: Path) -> None:
     """Write the frames."""
     folder.mkdir(parents=True, exist_ok=True)
     trellis = named("rectangular", width=60.0, height=90.0, rows=3, columns=5)
+    tiling = named("3.4.6.4", edge_length=60.0)
     files = {
         "star.svg": star_pattern(),
         "trellis.json": dumps(Frame("trellis", trellis.vertices, trellis.edges)),
         "net.json": dumps(net()),
+        "cells.json": dumps(cells()),
+        "crosses.svg": crosses(),
+        "rough.svg": rough(),
+        "tiling.json": dumps(Frame("tiling", tiling.vertices, tiling.edges)),
     }
     for name, text in files.items():
         (folder / name).write_text(text, encoding="ascii")

@@ -15,8 +15,8 @@ from scadgen.emit.frame_picture import frame_svg
 from scadgen.emit.mesh import write_atomic
 from scadgen.emit.picture import assembly_picture, frame_picture, joint_picture, parts_picture
 from scadgen.errors import ScadgenError
-from scadgen.frame.catalogue import named
 from scadgen.frame.sameness import sameness
+from scadgen.frame.snapping import move_vertices
 from scadgen.kit.build import VALENCE, Request, build
 from scadgen.readers.read import read
 
@@ -26,6 +26,9 @@ _EXAMPLES = Path(__file__).parents[1] / "examples" / "frames"
 
 #: Width and height of each, in pixels.
 _SIZE = (900, 675)
+
+#: How far vertices of the frame drawn by hand may move, in mm.
+_SNAP = 2.0
 
 #: How far joints are pulled apart, in sides.
 _APART = 3.5
@@ -42,12 +45,9 @@ def pictures(frame: str) -> Iterator[tuple[str, bytes]]:
 
 
 def frames() -> Iterator[tuple[str, bytes]]:
-    """Names and bytes of the pictures of frames that are not kits."""
-    shown = {
-        "tiling": named("3.4.6.4"),
-        "star": read(_EXAMPLES / "star.svg").frame,
-        "net": read(_EXAMPLES / "net.json").frame,
-    }
+    """Names and bytes of the pictures of the examples, and of the one that is snapped."""
+    shown = {path.stem: read(path).frame for path in sorted(_EXAMPLES.iterdir())}
+    shown["rough_snapped"] = move_vertices(shown["rough"], _SNAP).frame
     for name, frame in shown.items():
         yield f"frame_{name}.svg", frame_svg(frame, sameness(frame)).encode()
 

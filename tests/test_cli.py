@@ -134,7 +134,7 @@ def test_kit_takes_every_option_and_its_command_makes_it_again(run, tmp_path, mo
     counts = ("--rows", "1", "--columns", "3", "--key", "loose", *DRAFT)
     lengths = ("--side", "12.5", "--edge-length", "130", "--clearance", "0.15", "--bore", "2")
     peg = ("--peg-width", "4.5", "--peg-clearance", "0.1", "--peg-chamfer", "0.4")
-    words = ("kit", "square", *counts, *lengths, *peg)
+    words = ("kit", "square", *counts, *lengths, *peg, "--material", "PETG")
     code, out, _ = run(*words, "--json", "-o", "one")
     assert code == 0
     said = json.loads(out)
@@ -144,6 +144,7 @@ def test_kit_takes_every_option_and_its_command_makes_it_again(run, tmp_path, mo
     assert (made.rows, made.columns, made.key) == (1, 3, "loose")
     assert made.values["side"] == 12.5
     assert made.values["bore"] == 2.0
+    assert made.material == "PETG"
     assert made.command.startswith("scadgen kit square ")
     again = made.command.split()[1:]
     assert run(*again, "-o", "other")[0] == 0

@@ -23,7 +23,10 @@ ROOT = Path(__file__).parent.parent
 EXAMPLES = ROOT / "examples"
 README = (ROOT / "README.md").read_text()
 PYTHON = re.compile(r"```python\n(.*?)```", re.DOTALL)
-PAGES = [ROOT / "README.md", ROOT / "docs/geometry.md", ROOT / "docs/architecture.md"]
+PAGES = [
+    ROOT / page
+    for page in ("README.md", "docs/geometry.md", "docs/architecture.md", "examples/README.md")
+]
 
 
 def python(code, cwd):
@@ -120,7 +123,7 @@ def test_command_table_names_every_option():
         assert sorted(re.findall(r"`(--[a-z-]+)`", f"`{options}`")) == sorted(known), words
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_links_lead_somewhere(page):
     for link in re.findall(r"\]\(([^)#]+)", page.read_text()):
         assert link.startswith("https://") or (page.parent / link).exists(), link

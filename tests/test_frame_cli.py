@@ -243,15 +243,6 @@ def test_a_picture_is_the_frame_to_scale_y_up():
     assert (-points[:, 1] < float(root.get("height"))).all()
 
 
-@pytest.mark.parametrize("name", ["tiling", "star", "net"])
-def test_pictures_of_the_readme_are_drawn_from_its_frames(name):
-    folder = ROOT / "examples" / "frames"
-    files = {"star": folder / "star.svg", "net": folder / "net.json"}
-    frame = read(files[name]).frame if name in files else named("3.4.6.4")
-    drawn = (ROOT / "docs" / "pictures" / f"frame_{name}.svg").read_text()
-    assert drawn == frame_svg(frame, sameness(frame))
-
-
 def test_names_of_joints_go_on_after_z():
     names = [joint_name(kind) for kind in range(26 * 27)]
     assert names[:2] + names[25:28] + names[-1:] == ["A", "B", "Z", "AA", "AB", "ZZ"]

@@ -34,25 +34,27 @@ def section(text, heading):
 def test_what_to_print_is_the_bill_of_the_frame(frame, key):
     kit = stub_kit(frame, key=key, rows=2, columns=3)
     *rows, total = table(readme(kit), "What to print")
-    counts = {row[0].strip("`"): int(row[2]) for row in rows}
+    counts = {row[1].strip("`"): int(row[3]) for row in rows}
     assert counts == bill(LAYOUTS[frame](2, 3, key))
-    assert int(total[2]) == sum(counts.values())
+    assert int(total[3]) == sum(counts.values())
 
 
-def test_volumes_are_those_of_boxes():
-    rows = {row[0].strip("`"): row for row in table(readme(stub_kit()), "What to print")}
+def test_volumes_and_masses_are_those_of_boxes():
+    rows = {row[1].strip("`"): row for row in table(readme(stub_kit()), "What to print")}
     # The stub's connector is 2 s - (0.7 s + clearance / 2) long and s square, s = 10 mm:
-    # 12.9 x 10 x 10 mm = 1.29 cm3; the frame needs 6 of them.
-    assert rows["connector"][4] == "1.29"
-    count = int(rows["connector"][2])
-    assert rows["connector"][5] == f"{count * 1.29:.1f}"
-    parts = [float(row[5]) for name, row in rows.items() if name != "all"]
-    assert float(rows["all"][5]) == pytest.approx(sum(parts), abs=0.3)
+    # 12.9 x 10 x 10 mm = 1.29 cm3; the frame needs 6 of them, of PLA of 1.24 g/cm3.
+    assert rows["connector"][5] == "1.29"
+    count = int(rows["connector"][3])
+    assert rows["connector"][6] == f"{count * 1.29:.1f}"
+    assert rows["connector"][7] == f"{count * 1.29 * 1.24:.1f}"
+    for column in (6, 7):
+        parts = [float(row[column]) for name, row in rows.items() if name != "all"]
+        assert float(rows["all"][column]) == pytest.approx(sum(parts), abs=0.3)
 
 
 def test_spares_are_for_small_pieces_only():
     for row in table(readme(stub_kit()), "What to print")[:-1]:
-        name, needed, spare = row[0].strip("`"), int(row[2]), row[3]
+        name, needed, spare = row[1].strip("`"), int(row[3]), row[4]
         if name in ("half", "connector", "peg"):
             assert needed / 10 <= int(spare) < needed / 10 + 1
         else:

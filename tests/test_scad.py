@@ -380,7 +380,8 @@ def test_newer_openscad_refuses_the_same(hexagonal, tmp_path):
 def test_customizer_lists_every_parameter(kit, file, tmp_path):
     assert wasm(file, tmp_path / "p.json", "--export-format=param") == (0, [])
     found = {p["name"]: p for p in json.loads((tmp_path / "p.json").read_text())["parameters"]}
-    others = "rows columns bed plate_number spacing coupon_first coupon_step coupon_count explode"
+    others = "rows columns number_height bed plate_number spacing explode"
+    others += " coupon_first coupon_step coupon_count"
     assert sorted(found) == sorted(["part", *kit.values, *others.split()])
     for name, value in kit.values.items():
         low, high = limits(kit, name, kit.values)

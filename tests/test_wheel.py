@@ -73,6 +73,7 @@ def test_it_makes_a_kit(installed, tmp_path):
         "Makefile",
         "check_stl.py",
         "README.md",
+        "parts.csv",
         "preview.png",
         "assembly.png",
     }

@@ -93,7 +93,8 @@ def same(kit: Kit) -> Result:
     made = build(request)
     pairs = zip(made.joints, kit.joints, strict=False)
     joints = tuple(replace(a, verdicts=b.verdicts, ways=b.ways) for a, b in pairs)
-    equal = dumps(replace(made, joints=joints)) == dumps(kit)
+    made = replace(made, joints=joints, material=kit.material, slicing=kit.slicing)
+    equal = dumps(made) == dumps(kit)
     return Result(
         "the parameters make this kit",
         equal,

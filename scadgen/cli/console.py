@@ -24,14 +24,14 @@ def _seconds(_: click.Context, __: click.Parameter, value: float) -> float:
 
 
 def timeout_option(command: Callable[..., Any]) -> Callable[..., Any]:
-    """Give a command the option of how long OpenSCAD may take for one drawing."""
+    """Give a command the option of how long an outside program may take for one part."""
     option = click.option(
         "--timeout",
         default=300.0,
         show_default=True,
         metavar="S",
         callback=_seconds,
-        help="Limit a drawing.",
+        help="Limit what OpenSCAD or PrusaSlicer takes for one part.",
     )
     return option(command)
 

@@ -60,7 +60,7 @@ _READING: dict[str, tuple[type, str | None, str, tuple[str, ...] | None]] = {
 def source_options(
     without: Collection[str] = (),
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Give a command the options of named frames and of files.
+    """Give a command the options of named frames and of files, and of what is done to either.
 
     Parameters
     ----------
@@ -69,6 +69,13 @@ def source_options(
     """
 
     def add(function: Callable[..., Any]) -> Callable[..., Any]:
+        function = click.option(
+            "--snap",
+            type=float,
+            metavar="MM",
+            help="Move vertices by up to this, so that lengths and angles that are nearly the same "
+            "are the same.",
+        )(function)
         for name, (kind, metavar, what, _) in reversed(_READING.items()):
             text = f"Files: {what}"
             form: dict[str, Any] = {"type": kind, "metavar": metavar}
@@ -100,11 +107,24 @@ def load_frame(name: str, options: Mapping[str, Any]) -> Read:
         It is neither; an option that this frame or kind of file does not have; or what the
         frame or the reader refuses.
     """
+    given = {k: v for k, v in options.items() if v is not None and v is not False}
+    within = given.pop("snap", None)
+    found = _load(name, given)
+    if within is None:
+        return found
+    from scadgen.frame.snapping import move_vertices
+    from scadgen.readers.reading import Read
+
+    moved = move_vertices(found.frame, within, given.get("shortest", 0.0))
+    return Read(moved.frame, (*found.notes, *moved.notes))
+
+
+def _load(name: str, given: dict[str, Any]) -> Read:
+    """Make or read a frame as it is."""
     from scadgen.frame.catalogue import ALIASES, NAMES, named
     from scadgen.readers.read import READERS, read
     from scadgen.readers.reading import Read, Reading
 
-    given = {k: v for k, v in options.items() if v is not None and v is not False}
     family = NAMES.get(ALIASES.get(name, name))
     if family is not None:
         _check_options(name, given, family.options)

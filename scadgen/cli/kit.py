@@ -6,6 +6,7 @@ import json
 import re
 import shlex
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -96,12 +97,20 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
 @_lengths
 @source_options(without=("rows", "columns", "edge_length"))
 @click.option(
+    "--material",
+    default="PLA",
+    show_default=True,
+    metavar="NAME",
+    help="For the bill of materials: PLA, PETG, ABS, ASA, PC or PA.",
+)
+@click.option(
     "--unchecked", is_flag=True, help="Make the kit even if its joints are not proved to lock."
 )
 @click.option("--json", "as_json", is_flag=True, help="Say what was made as JSON.")
 def kit(
     frame: str,
     output: Path | None,
+    material: str,
     unchecked: bool,  # noqa: FBT001  click passes flags so
     as_json: bool,  # noqa: FBT001
     **options: Any,  # noqa: ANN401  of the kit, its live parameters, and the frame
@@ -124,15 +133,17 @@ def kit(
     """  # noqa: D301  click wants the character
     from scadgen.check.proof import proved
     from scadgen.emit.folder import check_folder, write_kit
+    from scadgen.kit.bill import check_material
     from scadgen.kit.build import build
     from scadgen.kit.store import summary
 
+    material = check_material(material)
     request, notes = _request(frame, options)
     folder = output or Path(request.frame)
     check_folder(folder)
     with progress(f"making {folder}") as bar:
         bar.reach(0.0, "computing the joints")
-        made = build(request)
+        made = replace(build(request), material=material)
         done = _COMPUTED
         if not unchecked:
             about = _PROOFS * len(made.joints)
@@ -174,7 +185,10 @@ def _request(frame: str, options: dict[str, Any]) -> tuple[Request, tuple[str, .
     own = {"rows", "columns", "key", "rim", "detail", "weave", *lengths}
     values = {n: v for n, v in options.items() if n in lengths and v is not None}
     weave = _weave(options["weave"]) if options["weave"] is not None else None
-    of_frame = {n: v for n, v in options.items() if n not in own and v not in (None, False)}
+    # A length of 0 is given, and wrong, though it equals False.
+    of_frame = {
+        n: v for n, v in options.items() if n not in own and v is not None and v is not False
+    }
     detail, rim, command = options["detail"], options["rim"], _command()
     rows, columns = options["rows"], options["columns"]
     if frame in VALENCE and not of_frame and rim == "caps":

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 import click
 
 from scadgen import __version__
+from scadgen.cli.bill import bill
 from scadgen.cli.check import check
 from scadgen.cli.export import export
 from scadgen.cli.frame import frame
@@ -32,7 +33,7 @@ def cli() -> None:
     """Turn a planar frame into 3D-printable parts that interlock without glue or screws."""
 
 
-for command in (kit, frame, export, render, check, interlock, tune, freecad):
+for command in (kit, frame, bill, export, render, check, interlock, tune, freecad):
     cli.add_command(command)
 
 

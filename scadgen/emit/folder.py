@@ -11,6 +11,7 @@ from pathlib import Path
 
 from scadgen.emit.macro import macro
 from scadgen.emit.makefile import makefile, stl_check
+from scadgen.emit.parts_csv import parts_csv
 from scadgen.emit.picture import assembly_picture, preview
 from scadgen.emit.placing import placing
 from scadgen.emit.readme import readme
@@ -19,7 +20,7 @@ from scadgen.errors import InputError
 from scadgen.kit.model import Kit
 from scadgen.kit.store import FORMAT, dumps
 
-__all__ = ["check_folder", "files_of", "write_kit"]
+__all__ = ["check_folder", "files_of", "update_bill", "write_kit"]
 
 #: What a new kit makes stale: what the kit's Makefile and `scadgen render` write, and what not
 #: every kit has.
@@ -36,6 +37,7 @@ def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
         "Makefile": makefile,
         "check_stl.py": stl_check,
         "README.md": readme,
+        "parts.csv": parts_csv,
         "preview.png": preview,
     }
     if kit.proved:
@@ -76,6 +78,35 @@ def write_kit(kit: Kit, folder: Path, *, progress: Callable[[str], None] = lambd
                 data = text if isinstance(text, bytes) else text.encode()
                 (stage / file).write_bytes(data)
             _swap(stage, target, Path(name) / "old")
+
+
+def update_bill(kit: Kit, folder: Path) -> None:
+    """Write anew the files of a kit's folder that have its bill; nothing else is touched.
+
+    Parameters
+    ----------
+    kit
+        The kit that is there, but for its material and its print times.
+    folder
+        Its folder.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be written.  Nothing is changed then.
+    """
+    texts = {name: files_of(kit)[name](kit) for name in _of_bill(kit)}
+    with _refusing(folder), tempfile.TemporaryDirectory(dir=folder, prefix=".scadgen-") as name:
+        for file, text in texts.items():
+            data = text if isinstance(text, bytes) else text.encode()
+            (Path(name) / file).write_bytes(data)
+        for file in texts:
+            (Path(name) / file).replace(folder / file)
+
+
+def _of_bill(kit: Kit) -> tuple[str, ...]:
+    """The files that have a kit's bill; the macro has all of the kit."""
+    return "kit.json", "parts.csv", "README.md", f"{kit.frame}.FCMacro"
 
 
 def check_folder(folder: Path) -> Path:

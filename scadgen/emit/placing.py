@@ -7,7 +7,6 @@ import math
 import numpy as np
 
 from scadgen.emit.picture import COLOURS
-from scadgen.emit.scad_parameters import elements
 from scadgen.emit.templates import UNCHECKED
 from scadgen.frame.placement import Placement
 from scadgen.kit.model import Kit
@@ -41,7 +40,7 @@ def placing(kit: Kit) -> str:
     points = np.array([p.at for p in kit.placements]) * (_EDGE, -_EDGE)
     corner = points.min(axis=0) - _MARGIN
     width, height = points.max(axis=0) + _MARGIN - corner
-    names = set(elements(kit))
+    names = set(kit.elements)
     layers: list[list[str]] = [[], [], [], []]
     for placement, point in zip(kit.placements, points - corner, strict=True):
         if placement.part in names:

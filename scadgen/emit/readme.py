@@ -4,25 +4,19 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
 from scadgen import __version__
-from scadgen.emit.scad_parameters import Parameter, elements, label, limits, sections
+from scadgen.emit.scad_parameters import Parameter, label, limits, sections
 from scadgen.emit.scad_text import literal
 from scadgen.emit.templates import environment
 from scadgen.frame.layout import MOST_CELLS, bill
-from scadgen.kit.model import Joint, Kit
-from scadgen.solid.mesh import volume
+from scadgen.kit.bill import Line, in_words, lines
+from scadgen.kit.model import DENSITIES, Joint, Kit
 
 __all__ = ["readme"]
-
-#: Share of the small pieces, which get lost, to print as spares.
-_SPARE = 0.1
-
-#: Density of PLA, in g/cm3.
-_PLA = 1.24
 
 #: Decimals to which bounds are shown, rounded inwards.
 _DECIMALS = 2
@@ -44,9 +38,8 @@ def readme(kit: Kit) -> str:
     text
         Markdown, UTF-8.
     """
-    needed = _needed(kit)
-    total = sum(row["all"] for row in needed)
-    asked = {row["part"] for row in needed}
+    needed = lines(kit)
+    asked = {line.part for line in needed}
     settings = {p.name: p for section in sections(kit) for p in section.parameters}
     engine = environment()
     engine.filters["md"] = _plain
@@ -59,9 +52,11 @@ def readme(kit: Kit) -> str:
         detail=kit.detail,
         scad=f"{kit.frame}.scad",
         macro=f"{kit.frame}.FCMacro",
-        needed=needed,
-        total=total,
-        grams=total * _PLA,
+        needed=[_needed(kit, line) for line in needed],
+        all=_whole(kit, needed),
+        material=kit.material,
+        density=DENSITIES[kit.material],
+        sliced=kit.slicing and kit.slicing.how,
         others=[f"`{name}`" for name in kit.parts if name not in asked],
         joints=[_joint(kit, one) for one in kit.joints],
         grid=kit.rows > 0,
@@ -91,25 +86,33 @@ def _joint(kit: Kit, one: Joint) -> dict[str, Any]:
     }
 
 
-def _needed(kit: Kit) -> list[dict[str, Any]]:
-    """What the frame needs: part, what it is, count, spares, and volume in cm3."""
+def _needed(kit: Kit, line: Line) -> dict[str, Any]:
+    """A line of the bill, and what the part is; volumes in cm3, time in words."""
     key_end = "peg end" if kit.key == "fixed" else "socket end"
-    large = set(elements(kit))
-    rows: list[dict[str, Any]] = []
-    for name, count in bill(kit.placements, kit.parts).items():
-        solid = kit.parts[name]
-        each = volume(solid.points(kit.values), solid.triangles) / 1000
-        rows.append(
-            {
-                "part": name,
-                "what": label(name).replace("peg end", key_end),
-                "count": count,
-                "spare": 0 if name in large else math.ceil(_SPARE * count),
-                "each": each,
-                "all": count * each,
-            }
-        )
-    return rows
+    return {
+        "number": line.number,
+        "part": line.part,
+        "what": label(line.part).replace("peg end", key_end),
+        "count": line.count,
+        "spare": line.spares,
+        "each": line.volume / 1000,
+        "all": line.count * line.volume / 1000,
+        "grams": line.count * line.mass,
+        "time": "" if line.seconds is None else in_words(line.seconds),
+    }
+
+
+def _whole(kit: Kit, needed: Sequence[Line]) -> dict[str, Any]:
+    """The whole frame, without spares."""
+    times = [line.count * line.seconds for line in needed if line.seconds is not None]
+    spun = [line.count * line.filament for line in needed if line.filament is not None]
+    return {
+        "count": sum(line.count for line in needed),
+        "volume": sum(line.count * line.volume for line in needed) / 1000,
+        "grams": sum(line.count * line.mass for line in needed),
+        "time": in_words(sum(times)) if times else "",
+        "spun": sum(spun) / 1000 * DENSITIES[kit.material],
+    }
 
 
 def _live(kit: Kit, parameter: Parameter) -> Mapping[str, str]:

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from scadgen import __version__
-from scadgen.emit.scad_parameters import elements, parameter_sets, sections
+from scadgen.emit.scad_numbers import HIGHEST, tubes
+from scadgen.emit.scad_parameters import parameter_sets, sections
 from scadgen.emit.scad_text import comment, expression, faces, number, quoted, table
 from scadgen.emit.templates import environment
 from scadgen.errors import InvariantError
@@ -73,7 +74,9 @@ def scad(kit: Kit) -> str:
             for r in kit.ranges
         ],
         parts=[_part(solid, live) for solid in kit.parts.values()],
-        elements=elements(kit),
+        elements=kit.elements,
+        tubes=tubes(kit),
+        highest=HIGHEST,
         first_element=next(iter(kit.parts)),
         grid=kit.rows > 0,
         placements=[_placement(p) for p in kit.placements],

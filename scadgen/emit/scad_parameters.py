@@ -7,6 +7,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from scadgen.emit.scad_numbers import HIGHEST
 from scadgen.emit.scad_text import literal
 from scadgen.errors import InvariantError
 from scadgen.frame.layout import MOST_CELLS
@@ -15,7 +16,6 @@ from scadgen.kit.model import Kit
 __all__ = [
     "Parameter",
     "Section",
-    "elements",
     "label",
     "limits",
     "parameter_sets",
@@ -86,11 +86,18 @@ class Section:
     parameters: tuple[Parameter, ...]
 
 
-def elements(kit: Kit) -> list[str]:
-    """The edge elements, as ``edge_element(kind)`` names them."""
-    halves_and_pegs = {p.part for one in kit.joints for p in one.pieces if p.role != "cap"}
-    others = halves_and_pegs.union(*(one.connectors for one in kit.joints))
-    return [name for name in kit.parts if name not in others]
+#: What is set for numbers on tubes.
+_NUMBERS = Section(
+    "Numbers",
+    (
+        Parameter(
+            "number_height",
+            "0",
+            f"[-{HIGHEST}:0.1:{HIGHEST}]",
+            "Height of each edge element's number on its tube, mm (0: none; below 0: sunk in)",
+        ),
+    ),
+)
 
 
 def views(kit: Kit) -> list[str]:
@@ -134,6 +141,7 @@ def sections(kit: Kit) -> tuple[Section, ...]:
     return (
         Section("Part", (Parameter("part", shown, widget, "What to draw"),)),
         *(Section(title, tuple(rows)) for title, rows in live.items()),
+        _NUMBERS,
         *([_cells(kit)] if kit.rows else []),
         Section(
             "Plate",

@@ -14,7 +14,17 @@ from scadgen.frame.placement import Placement
 from scadgen.interlock.path import Path
 from scadgen.solid.affine import AffineSolid, Range
 
-__all__ = ["RIMS", "Joint", "Kit", "Way"]
+__all__ = ["DENSITIES", "RIMS", "Joint", "Kit", "Slicing", "Way"]
+
+#: Materials to print with, and the density of each in g/cm3, as most makers state them.
+DENSITIES: Mapping[str, float] = {
+    "PLA": 1.24,
+    "PETG": 1.27,
+    "ABS": 1.04,
+    "ASA": 1.07,
+    "PC": 1.2,
+    "PA": 1.12,
+}
 
 #: What is done where a joint at the rim lacks edges of an inner one.
 RIMS = ("caps", "open")
@@ -38,6 +48,25 @@ class Way:
     name: str
     moving: tuple[int, ...]
     path: Path
+
+
+@dataclass(frozen=True, slots=True)
+class Slicing:
+    """What printing the parts takes, as a slicer says.
+
+    Parameters
+    ----------
+    how
+        The slicer, and the settings that matter most.
+    seconds
+        Print time of one piece, by part.
+    filament
+        Filament for one piece, supports and all, in mm3, by part.
+    """
+
+    how: str
+    seconds: Mapping[str, int]
+    filament: Mapping[str, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,6 +161,10 @@ class Kit:
         The frame where it has no rows and columns, in mm.
     rim
         Whether joints at its rim have caps where they lack edges; one of `RIMS`.
+    material
+        What it is to be printed with; one of `DENSITIES`.
+    slicing
+        What printing it takes, if a slicer was asked.
     """
 
     frame: str
@@ -147,6 +180,15 @@ class Kit:
     placements: tuple[Placement, ...]
     graph: Frame | None = None
     rim: str = "caps"
+    material: str = "PLA"
+    slicing: Slicing | None = None
+
+    @property
+    def elements(self) -> list[str]:
+        """The edge elements among its parts."""
+        halves_and_pegs = {p.part for one in self.joints for p in one.pieces if p.role != "cap"}
+        others = halves_and_pegs.union(*(one.connectors for one in self.joints))
+        return [name for name in self.parts if name not in others]
 
     @property
     def proved(self) -> bool:

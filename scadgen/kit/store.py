@@ -21,6 +21,7 @@ from scadgen.frame.graph import make_frame
 from scadgen.frame.layout import LAYOUTS, bill, joint
 from scadgen.frame.placement import PARTS, Placement
 from scadgen.interlock.path import Path
+from scadgen.kit.bill import as_json, with_bill
 from scadgen.kit.model import Joint, Kit, Way
 from scadgen.kit.ranges import check_values
 from scadgen.kit.request import VALENCE
@@ -91,6 +92,7 @@ def _summary(kit: Kit, *, ways: bool) -> dict[str, Any]:
         "detail": kit.detail,
         "values": dict(kit.values),
         "bill": bill(kit.placements, kit.parts),
+        "bill_of_materials": as_json(kit),
         "proved": kit.proved,
         "joints": [_joint_entry(joint, ways=ways) for joint in kit.joints],
     }
@@ -199,6 +201,9 @@ def loads(text: str) -> Kit:
             _refuse(f"no range for {', '.join(sorted(missing))}")
         check_values(kit.ranges, kit.values)
         _check_sense(kit, document)
+        # Kits of earlier scadgens have none.
+        if "bill_of_materials" in document:
+            kit = with_bill(kit, document["bill_of_materials"])
     except (InputError, InvariantError, ValueError, KeyError, TypeError, OverflowError) as error:
         _refuse(str(error))
     return kit

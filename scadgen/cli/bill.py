@@ -1,0 +1,162 @@
+"""``scadgen bill``: what a kit's parts weigh, and how long they print."""
+
+from __future__ import annotations
+
+import json
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from scadgen.cli.console import progress, table, timeout_option
+from scadgen.errors import InputError, ToolError
+
+if TYPE_CHECKING:
+    from scadgen.kit.model import Kit, Slicing
+
+__all__ = ["bill"]
+
+_FILE = click.Path(path_type=Path)
+
+#: Slicers that run at once: each has threads of its own.
+_AT_ONCE = 2
+
+
+@click.command(short_help="Say what to print: how many, how heavy, how long.")
+@click.argument("folder", metavar="KIT", type=_FILE)
+@click.option(
+    "--material", metavar="NAME", help="PLA, PETG, ABS, ASA, PC or PA.  [default: the kit's]"
+)
+@click.option(
+    "--profile", type=_FILE, metavar="FILE", help="Settings exported from PrusaSlicer (.ini)."
+)
+@click.option("--keep", is_flag=True, help="Put it into the kit: kit.json, parts.csv, README.md.")
+@click.option("-o", "--output", type=_FILE, metavar="FILE", help="Write it as CSV.")
+@click.option("--json", "as_json", is_flag=True, help="Say it as JSON.")
+@timeout_option
+def bill(
+    folder: Path,
+    material: str | None,
+    profile: Path | None,
+    keep: bool,  # noqa: FBT001  click passes flags so
+    output: Path | None,
+    as_json: bool,  # noqa: FBT001
+    timeout: float,
+) -> None:
+    """Say what a kit's frame needs: parts by number, how many, spares, volume and mass.
+
+    Where PrusaSlicer is installed, each part is sliced for its print time and its filament,
+    supports and all.  Without --profile that is with PrusaSlicer's own settings, layers of
+    0.2 mm and supports from the bed.
+
+    \b
+    scadgen bill out/hexagonal
+    scadgen bill out/hexagonal --material PETG --profile mine.ini --keep
+    """  # noqa: D301  click wants the character
+    from scadgen.emit.folder import update_bill
+    from scadgen.emit.mesh import check_writable, write_atomic
+    from scadgen.emit.parts_csv import parts_csv
+    from scadgen.kit.bill import as_json as bill_of
+    from scadgen.kit.bill import check_material
+    from scadgen.kit.store import load
+    from scadgen.tools import slicer
+
+    if output is not None:
+        check_writable(output)
+    if profile is not None and not profile.is_file():
+        msg = f"profile {str(profile)!r}: no such file; PrusaSlicer exports one (File > Export)"
+        raise InputError(msg)
+    kit = load(folder)
+    if material is not None:
+        kit = replace(kit, material=check_material(material))
+    program = slicer.find()
+    if program is not None:
+        kit = replace(kit, slicing=_sliced(kit, program, profile, timeout))
+    elif profile is not None:
+        msg = f"profile {str(profile)!r}: {_missing()}"
+        raise ToolError(msg)
+    if keep:
+        update_bill(kit, folder)
+    if output is not None:
+        write_atomic(output, parts_csv(kit).encode())
+    if as_json:
+        click.echo(json.dumps(bill_of(kit), indent=1))
+        return
+    _show(kit)
+    if kit.slicing is None:
+        click.echo(f"no print times: {_missing()}")
+
+
+def _missing() -> str:
+    from scadgen.tools.slicer import NAMES
+
+    return (
+        f"{NAMES[0]} is not found; install it (Debian: apt install prusa-slicer), or name it in "
+        "SCADGEN_PRUSA_SLICER"
+    )
+
+
+def _sliced(kit: Kit, program: str, profile: Path | None, timeout: float) -> Slicing:
+    """What the slicer says of every part that the frame needs."""
+    from scadgen.emit.mesh import mesh_bytes
+    from scadgen.kit.bill import lines
+    from scadgen.kit.model import Slicing
+    from scadgen.tools.slicer import Sliced, slice_mesh
+
+    parts = [line.part for line in lines(kit)]
+
+    def one(part: str) -> Sliced:
+        solid = kit.parts[part]
+        mesh = mesh_bytes(solid.points(kit.values), solid.triangles, "stl")
+        try:
+            return slice_mesh(program, mesh, profile, timeout)
+        except ToolError as error:
+            msg = f"part {part}: {error}"
+            raise ToolError(msg) from error
+
+    found: dict[str, Sliced] = {}
+    with progress("slicing") as bar, ThreadPoolExecutor(_AT_ONCE) as pool:
+        step = bar.steps(0.0, 1.0, len(parts))
+        try:
+            for part, said in zip(parts, pool.map(one, parts), strict=True):
+                found[part] = said
+                step(part)
+        except BaseException:  # an interrupt as well: what has not begun is left
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return Slicing(
+        found[parts[0]].how,
+        {part: said.seconds for part, said in found.items()},
+        {part: said.filament for part, said in found.items()},
+    )
+
+
+def _show(kit: Kit) -> None:
+    """The bill as a table, and the whole in a line."""
+    from scadgen.kit.bill import in_words, lines
+    from scadgen.kit.model import DENSITIES
+
+    needed, density = lines(kit), DENSITIES[kit.material]
+    rows = [
+        (
+            str(line.number),
+            line.part,
+            str(line.count),
+            str(line.spares or ""),
+            f"{line.volume / 1000:.2f}",
+            f"{line.mass:.2f}",
+            "" if line.seconds is None else in_words(line.seconds),
+            "" if line.filament is None else f"{line.filament / 1000 * density:.2f}",
+        )
+        for line in needed
+    ]
+    table(("no.", "part", "count", "spares", "cm3 each", "g each", "time each", "filament g"), rows)
+    solid = sum(line.count * line.mass for line in needed)
+    pieces = sum(line.count for line in needed)
+    click.echo(f"{pieces} pieces, without spares: {solid:.0f} g of {kit.material} printed solid")
+    if kit.slicing is not None:
+        seconds = sum(line.count * (line.seconds or 0) for line in needed)
+        spun = sum(line.count * (line.filament or 0.0) for line in needed) / 1000 * density
+        click.echo(f"sliced one by one: {in_words(seconds)}, {spun:.0f} g; {kit.slicing.how}")
