@@ -86,7 +86,7 @@ def test_arms_of_straight_connectors_end_in_the_middle_of_the_gap():
     weave = Weave(1.5, 0.3, 0.0, 0.3, 1.0)
     lattice = make_lattice(regular(4), weave.ring_ratio, 9)
     curves = site_curves(lattice.edges, weave, 60)
-    thickness = arm(lattice, curves, 0)
+    thickness = arm(lattice, curves, 0, np.full(4, np.pi / 4))
     middle = lattice.planes[lattice.edge_planes[0] : lattice.edge_planes[1]]
     before = middle[middle < np.pi / 4][-1]
     # All that is left of the arm there is what is nearer to it than to its mirror image.
@@ -96,5 +96,5 @@ def test_arms_of_straight_connectors_end_in_the_middle_of_the_gap():
 
 def test_arms_are_the_same_all_around():
     made = joint("hexagonal")
-    found = [arm(made.lattice, made.curves, edge) for edge in range(3)]
+    found = [arm(made.lattice, made.curves, edge, made.walls) for edge in range(3)]
     assert np.ptp(found) < 1e-9

@@ -17,7 +17,7 @@ GAP = 2 * math.pi / 3
 
 
 def curve(samples=60, **changes):
-    return SiteCurve(Weave(**{**GOOD, **changes}), 0.0, GAP, GAP, samples)
+    return SiteCurve(Weave(**{**GOOD, **changes}), 0.0, GAP / 2, GAP / 2, samples)
 
 
 @pytest.mark.parametrize(
@@ -92,7 +92,7 @@ def test_in_plan_it_is_an_arc_of_ring_ratio_over_bend():
 
 
 def test_each_side_reaches_by_its_own_gap():
-    both = SiteCurve(Weave(**{**GOOD, "bend": 0.0}), 0.0, 1.0, 2.0, 60)
+    both = SiteCurve(Weave(**{**GOOD, "bend": 0.0}), 0.0, 0.5, 1.0, 60)
     assert both.points(np.array(1.0))[1] == pytest.approx(0.8 * 1.5)
     assert both.points(np.array(-1.0))[1] == pytest.approx(-0.8 * 1.5 * 2)
 
@@ -112,8 +112,8 @@ def test_a_stretch_as_long_as_the_gap_changes_nothing():
 def test_beyond_its_stretch_an_arm_follows_the_ring_and_then_weaves_as_in_a_narrow_gap():
     stretch, wide = 2.0, 5.0
     weave = Weave(**GOOD, stretch=stretch)
-    narrow = SiteCurve(weave, 0.0, stretch / 1.5, stretch / 1.5, 60)
-    site = SiteCurve(weave, 0.0, wide / 1.5, wide / 1.5, 60)
+    narrow = SiteCurve(weave, 0.0, stretch / 3, stretch / 3, 60)
+    site = SiteCurve(weave, 0.0, wide / 3, wide / 3, 60)
     # Half of what is not woven lies on each side of the gap's middle.
     turn = (wide - stretch) / 2 / 1.5
     c, s = math.cos(turn), math.sin(turn)
@@ -124,22 +124,22 @@ def test_beyond_its_stretch_an_arm_follows_the_ring_and_then_weaves_as_in_a_narr
     assert np.allclose(z, 0, atol=0.02)
 
 
-@pytest.mark.parametrize(("degrees", "count"), [(90, 4), (60, 6)])
-def test_the_weave_for_any_joint_is_the_built_in_one_where_gaps_are_even(degrees, count):
-    weave, known = any_joint(math.radians(degrees)), BUILT_IN[f"{count}-loose"]
-    assert weave.shape == pytest.approx(known.shape, abs=0.01)
-
-
 @pytest.mark.parametrize("degrees", [25, 45, 60, 75, 90, 120, 180])
 def test_the_weave_for_any_joint_weaves_in_all_of_the_smallest_gap(degrees):
     weave = any_joint(math.radians(degrees))
     assert weave.stretch is not None
-    woven = weave.ring_ratio * math.radians(degrees)
-    assert woven >= weave.stretch - 0.05 or weave.ring_ratio == 8
+    woven = weave.ring_ratio * math.radians(min(degrees, 90))
+    assert weave.stretch <= woven < weave.stretch + 0.02
+
+
+@given(st.floats(25, 180), st.floats(0, 1e-3))
+def test_the_weave_for_any_joint_hardly_changes_with_its_gap(degrees, more):
+    one, other = (any_joint(math.radians(gap)) for gap in (degrees, degrees + more))
+    assert np.allclose(one.shape, other.shape, rtol=0, atol=0.012)
 
 
 def test_edges_too_near_each_other_for_any_ring_are_refused():
-    with pytest.raises(InputError, match=r"edges 20 degrees apart: must be at least 24\.\d+ for"):
+    with pytest.raises(InputError, match=r"edges 20 degrees apart: must be at least 25, or"):
         any_joint(math.radians(20))
 
 
@@ -170,7 +170,7 @@ def test_distance_from_a_straight_curve_by_hand():
 )
 def test_distance_is_that_from_the_nearest_of_many_samples(ring, span, lift, bend, stretch, seed):
     weave = Weave(ring, span, lift, bend, 1.2, stretch=stretch)
-    site = SiteCurve(weave, 0.0, GAP, GAP - 0.7, 240)
+    site = SiteCurve(weave, 0.0, GAP / 2, GAP / 2 - 0.35, 240)
     points = np.random.default_rng(seed).uniform([0, -2, -0.5], [ring + 0.5, 2, 0.5], (40, 3))
     found, gradient = site.distance(points)
     dense = site.points(np.linspace(-1, 1, 4001))

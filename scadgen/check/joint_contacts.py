@@ -23,6 +23,9 @@ __all__ = ["whole_contacts"]
 #: nearer than that, and where a third curve is nearer there is no wall.
 _ON_WALL = 1e-7
 
+#: How much farther than the nearest curve one may be that has a wall in a cell there, in sides.
+_NEARLY = 0.8
+
 #: Difference of two distances' slopes below which a wall's normal is unknown.
 _STEEP = 1e-6
 
@@ -42,7 +45,7 @@ def whole_contacts(lattice: Lattice, curves: Sequence[SiteCurve]) -> tuple[list[
     contacts
         Between these; normals are those of the exact walls.
     """
-    far = distances(curves, lattice.nodes)
+    far = distances(curves, lattice.nodes, _NEARLY)
     keys, pairs = _crossed(far.argmin(axis=0))
     points = place(lattice, curves, far, keys)
     found = [curve.distance(points) for curve in curves]

@@ -49,7 +49,7 @@ TIP = 3.0
 _CHANGE = 0.1
 
 #: Clearance at which play has to be as the first order says, in sides, and how nearly.
-_SMALL, _FIRST_ORDER = 0.002, 0.1
+_SMALL, _FIRST_ORDER = 0.0005, 0.1
 
 
 def _whole(kit: Kit, joint: Joint, clearance: float = 0.0) -> list[Mesh]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 from scadgen.check.known import known_ways
@@ -23,9 +23,7 @@ class Proof:
     way: Way | None = None
 
 
-def proofs(
-    kit: Kit, joint: Joint, known: Iterable[Way] = (), say: Callable[[str], None] = lambda _: None
-) -> Iterator[Proof]:
+def proofs(kit: Kit, joint: Joint, say: Callable[[str], None] = lambda _: None) -> Iterator[Proof]:
     """Prove what a kit promises of one of its joints, one result after the other.
 
     Parameters
@@ -34,14 +32,12 @@ def proofs(
         The kit.
     joint
         The joint; ways that it carries are proved, and searched for only where it has none.
-    known
-        More ways that may do: those of joints like it.
     say
         Told what takes long.
     """
     for result in joint_locks(kit, joint):
         yield Proof(result)
-    ways = (*joint.ways, *known_ways(kit, joint), *known)
+    ways = (*joint.ways, *known_ways(kit, joint))
     for result, way in come_apart(kit, joint, ways, say=say):
         yield Proof(result, way)
 
@@ -61,18 +57,14 @@ def proved(kit: Kit, say: Callable[[str], None] = lambda _: None) -> Kit:
     GeometryError
         One does not lock, or no way is found on which it comes apart.
     """
-    done: list[Joint] = []
-    for joint in kit.joints:
-        known = [way for other in done for way in other.ways]
-        done.append(_proved(kit, joint, known, say))
-    return replace(kit, joints=tuple(done))
+    return replace(kit, joints=tuple(_proved(kit, joint, say) for joint in kit.joints))
 
 
-def _proved(kit: Kit, joint: Joint, known: Iterable[Way], say: Callable[[str], None]) -> Joint:
+def _proved(kit: Kit, joint: Joint, say: Callable[[str], None]) -> Joint:
     """A joint with all that is proved of it."""
     verdicts, ways = {}, []
     of = f"{joint.title}: " if joint.name else ""
-    for proof in proofs(kit, joint, known, lambda what: say(of + what)):
+    for proof in proofs(kit, joint, lambda what: say(of + what)):
         result = proof.result
         if not result.good:
             msg = (

@@ -109,8 +109,12 @@ def come_apart(
     bodies = _Bodies(kit, joint)
     known, present = tuple(known), set(range(len(joint.pieces)))
     while stage := _next(joint, present):
-        found: tuple[Way, float] | str | None = bodies.known(stage, known, present)
-        found = found or bodies.opened(stage, present)
+        fitting = [w for w in known if w.name == stage.name and w.moving in stage.choices]
+        found: tuple[Way, float] | str | None = (
+            bodies.known(fitting, present)
+            or bodies.opened(stage, present)
+            or bodies.nearly_known(fitting, present)
+        )
         if found is None:
             say(f"searching how {stage.name}")
             found = bodies.searched(stage, present, seconds)
@@ -171,19 +175,14 @@ class _Bodies:
         bodies = self.bodies(way.moving, present)
         return narrowest(path, *bodies, least=least, look=_LOOK * self.clearance)
 
-    def known(
-        self, stage: _Stage, ways: Sequence[Way], present: set[int]
-    ) -> tuple[Way, float] | None:
-        """The first of some ways that is one for this stage, and its smallest gap.
+    def known(self, ways: Sequence[Way], present: set[int]) -> tuple[Way, float] | None:
+        """The first of some ways that is one here too, and its smallest gap."""
+        gaps = ((way, self.gap(way, present)) for way in ways)
+        return next((found for found in gaps if found[1] > 0), None)
 
-        One that is too near to a wall here may still lead to another that is not.
-        """
-        fitting = [w for w in ways if w.name == stage.name and w.moving in stage.choices]
-        for way in fitting:
-            gap = self.gap(way, present)
-            if gap > 0:
-                return way, gap
-        return next(filter(None, (self.widened(way, present) for way in fitting)), None)
+    def nearly_known(self, ways: Sequence[Way], present: set[int]) -> tuple[Way, float] | None:
+        """The first of some ways, too near to a wall here, that is one once it is widened."""
+        return next(filter(None, (self.widened(way, present) for way in ways)), None)
 
     def opened(self, stage: _Stage, present: set[int]) -> tuple[Way, float] | None:
         """A way for this stage that needs no search, and its smallest gap."""

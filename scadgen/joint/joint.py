@@ -50,6 +50,10 @@ class Detail:
 #: Angles as near to each other as this are the same, in radians.
 _ALIKE = 1e-9
 
+#: How much farther than the nearest curve one may be that has a wall in a cell there, in sides:
+#: two diagonals of the widest cells.
+_NEARLY = 0.8
+
 #: The levels of detail by name.
 DETAILS: Mapping[str, Detail] = MappingProxyType(
     {"draft": Detail(60, 5), "standard": Detail(120, 9), "fine": Detail(240, 17)}
@@ -173,7 +177,7 @@ def make_joint(
     computed = range(_period(steps))
     for edge in computed:
         check_footprint(lattice, curves, edge)
-    far = distances(curves, lattice.nodes)
+    far = distances(curves, lattice.nodes, _NEARLY)
     labels = far.argmin(axis=0)
     walls = list(wedges(lattice, labels))
     corners = sorted({corner for wedge in walls for corner in wedge.corners})

@@ -28,13 +28,18 @@ _STEPS = 5
 _STRAY = 0.5
 
 
-def distances(curves: Sequence[SiteCurve], points: Floats) -> Floats:
+def distances(curves: Sequence[SiteCurve], points: Floats, beyond: float = np.inf) -> Floats:
     """Distance of points from each curve.
 
     Parameters
     ----------
+    curves
+        Site curves.
     points
         ``(..., 3) float``, in sides.
+    beyond
+        How much farther than the nearest curve another may be, in sides, for its distance to
+        be wanted: of those that are farther it is a sample's, which is no less.
 
     Returns
     -------
@@ -42,7 +47,14 @@ def distances(curves: Sequence[SiteCurve], points: Floats) -> Floats:
         ``(curves, ...) float``, in sides.
     """
     flat = points.reshape(-1, 3)
-    found = np.stack([curve.distance(flat)[0] for curve in curves])
+    if np.isinf(beyond):
+        found = np.stack([curve.distance(flat)[0] for curve in curves])
+    else:
+        found = np.stack([curve.from_sample(flat) for curve in curves])
+        nearest = found.min(axis=0)
+        for curve, far in zip(curves, found, strict=True):
+            wanted = np.flatnonzero(far <= nearest + beyond + curve.between_samples)
+            far[wanted] = curve.distance(flat[wanted])[0]
     return found.reshape(len(curves), *points.shape[:-1])
 
 

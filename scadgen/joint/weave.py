@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
+from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -22,7 +23,7 @@ __all__ = ["BUILT_IN", "LIMITS", "SHAPE", "SiteCurve", "Weave", "any_joint", "bu
 
 #: What each weave parameter may be: (low, high).
 LIMITS: Mapping[str, tuple[float, float]] = {
-    "ring_ratio": (0.8, 11.0),
+    "ring_ratio": (0.8, 12.0),
     "span": (0.1, 1.5),
     "amplitude": (0.0, 1.0),
     "bend": (0.0, 1.5),
@@ -32,6 +33,9 @@ LIMITS: Mapping[str, tuple[float, float]] = {
 
 #: The parameters that every weave has, in the order of `Weave.shape`.
 SHAPE = ("ring_ratio", "span", "amplitude", "bend", "periods")
+
+#: What angles may be off by rounding, in degrees.
+_ROUNDING = 1e-4
 
 #: How gently an arm that followed the ring begins to weave, in sides.
 _GENTLE = 0.25
@@ -235,6 +239,16 @@ class SiteCurve:
         distance = np.sqrt(np.einsum("ij,ij->i", away, away))
         return distance, away / np.maximum(distance, np.finfo(float).tiny)[:, None]
 
+    def from_sample(self, points: Floats) -> Floats:
+        """Distance from the nearest sample, ``(k,)``: above the curve's."""
+        return np.asarray(self._tree.query(points)[0], dtype=np.float64)
+
+    @cached_property
+    def between_samples(self) -> float:
+        """By how much a distance from the nearest sample may be above the curve's, in sides."""
+        samples = np.asarray(self._tree.data)
+        return float(np.linalg.norm(np.diff(samples, axis=0), axis=1).max())
+
     def _around(self, points: Floats) -> tuple[Floats, Floats, Floats]:
         """The sample nearest to each point, and between what its nearest point is sought."""
         _, nearest = self._tree.query(points)
@@ -310,12 +324,16 @@ BUILT_IN: Mapping[str, Weave] = MappingProxyType(
 )
 
 
-#: What the weaves of joints of any gaps share: span, amplitude, the curvature in plan that arms
-#: give up of the ring's, half waves, and the stretch; see ``docs/geometry.md``, "Any joint".
-_ANY = (0.833, 0.3, 0.101, 1.358, 4.752)
-
-#: Smallest gap that is woven all through: a ring of even gaps wider than that is no smaller.
-_WIDEST = math.pi / 2
+#: Weaves of joints of any gaps, by the smallest of these in degrees: span, amplitude, the
+#: curvature in plan that arms give up of the ring's, half waves, and the stretch.  Between two
+#: rows all go evenly; see ``docs/geometry.md``, "Any joint".
+_ANY = np.array(
+    [
+        [25.0, 0.765, 0.378, 0.061, 1.478, 4.044],
+        [42.0, 0.781, 0.35, 0.12, 1.472, 4.249],
+        [90.0, 0.781, 0.35, 0.12, 1.472, 4.249],
+    ]
+)
 
 
 def built_in(valence: int, key: str) -> Weave:
@@ -336,9 +354,9 @@ def built_in(valence: int, key: str) -> Weave:
 def any_joint(least_gap: float) -> Weave:
     """The weave of joints whose gaps differ; see ``docs/geometry.md``, "Any joint".
 
-    The ring is so wide that the smallest gap is as long as the stretch that arms weave in.  So
-    walls are nearly the same in any gap of any joint, and what holds for one of them, that it
-    opens when one of its connectors turns a little on its way up, holds for all.
+    The ring is so wide that the smallest gap, or 90 degrees, is as long as the stretch that
+    arms weave in.  So in one joint all walls are nearly the same, whatever their gaps: they lock
+    alike, and open alike for a piece that goes up or down and turns a little.
 
     Parameters
     ----------
@@ -348,17 +366,17 @@ def any_joint(least_gap: float) -> Weave:
     Raises
     ------
     InputError
-        It is so small that no ring is wide enough.
+        It is smaller than such weaves are known for.
     """
-    span, amplitude, curl, periods, stretch = _ANY
-    ring = math.ceil(100 * stretch / min(least_gap, _WIDEST) - 1e-6) / 100
-    most = LIMITS["ring_ratio"][1]
-    if ring > most:
-        need = math.degrees(stretch / most)
+    degrees = math.degrees(least_gap)
+    if degrees < _ANY[0, 0] - _ROUNDING:
         msg = (
-            f"edges {math.degrees(least_gap):.4g} degrees apart: must be at least {need:.4g} "
-            f"for the largest ring to hold them, of ratio {most:g}"
+            f"edges {degrees:.4g} degrees apart: must be at least {_ANY[0, 0]:g}, "
+            "or no ring is wide enough"
         )
         raise InputError(msg)
+    rows = (np.interp(degrees, _ANY[:, 0], column) for column in _ANY[:, 1:].T)
+    span, amplitude, curl, periods, stretch = (round(float(value), 3) for value in rows)
+    ring = math.ceil(100 * stretch / min(least_gap, math.radians(_ANY[-1, 0])) - 1e-6) / 100
     bend = max(0.0, round(1 - curl * ring, 3))
     return Weave(ring, span, amplitude, bend, periods, stretch=stretch, name="any")
