@@ -134,7 +134,7 @@ def test_a_picture_says_where_each_piece_goes():
 
 def test_what_cannot_be_built_is_refused_with_its_place():
     near = make_frame("near", [[0, 0], [200, 0], [199, 20]], [[0, 1], [0, 2]])
-    with pytest.raises(InputError, match=r"vertex 0 at \(0, 0\), angles 5\.\d+, .*at least 24"):
+    with pytest.raises(InputError, match=r"vertex 0 at \(0, 0\), angles 5\.\d+, .*at least 25"):
         build(request(near))
     with pytest.raises(GeometryError, match=r"edge \d+ from .* too short for its two joints"):
         build(request(make_frame("fork", *FORK), resizable=False, values={"side": 30.0}))

@@ -24,7 +24,7 @@ def curve(samples=60, **changes):
     ("name", "value"),
     [
         ("ring_ratio", 0.79),
-        ("ring_ratio", 8.01),
+        ("ring_ratio", 10.01),
         ("span", 0.0),
         ("span", 1.51),
         ("amplitude", -0.1),

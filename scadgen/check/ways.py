@@ -157,10 +157,8 @@ class _Bodies:
         self.meshes = pieces(kit, joint, values)
         self.tubes = tubes(kit, joint, values)
         self.key_tubes = key_tubes(kit, joint, values) if kit.key == "loose" else {}
-        self._is_loose = kit.key == "loose"
-        self._joint, self._hole = joint, joint.figures["ring_hole_sides"] * self.side
-        self._pad = joint.figures["pad_sides"] * self.side
-        self._openings = Openings(kit, joint)
+        self._is_loose, self._joint = kit.key == "loose", joint
+        self._openings = Openings(kit, joint) if "stretch" in joint.weave else None
 
     def bodies(self, moving: tuple[int, ...], present: set[int]) -> tuple[list[Mesh], list[Mesh]]:
         """What moves, and what stays."""
@@ -199,17 +197,19 @@ class _Bodies:
 
     def _proposed(self, piece: int, present: set[int]) -> Iterator[Path]:
         """Ways for a piece, in sides, that may do."""
-        if self._joint.pieces[piece].role != "peg":
-            yield from self._openings.paths(piece, present)
-        elif self._is_loose:
+        is_peg = self._joint.pieces[piece].role == "peg"
+        if is_peg and self._is_loose:
             yield self._of_peg(piece)
+        elif self._openings and not is_peg:
+            yield from self._openings.paths(piece, present)
 
     def _of_peg(self, piece: int) -> Path:
         """A loose peg's way into the middle of the ring's hole, and up."""
         turn = self._joint.pieces[piece].turn
         along = np.array([np.cos(np.radians(turn)), np.sin(np.radians(turn)), 0.0])
-        reach = self.meshes[piece][0] @ along
-        inwards = reach.max() - self._pad + (self._hole - np.ptp(reach)) / 2
+        reach, figures = self.meshes[piece][0] @ along, self._joint.figures
+        pad, hole = (figures[name] * self.side for name in ("pad_sides", "ring_hole_sides"))
+        inwards = reach.max() - pad + (hole - np.ptp(reach)) / 2
         steps = np.zeros((3, 6))
         steps[1:, :3] = -inwards / self.side * along
         steps[2, 2] = _RISE

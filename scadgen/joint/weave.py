@@ -23,7 +23,7 @@ __all__ = ["BUILT_IN", "LIMITS", "SHAPE", "SiteCurve", "Weave", "any_joint", "bu
 
 #: What each weave parameter may be: (low, high).
 LIMITS: Mapping[str, tuple[float, float]] = {
-    "ring_ratio": (0.8, 12.0),
+    "ring_ratio": (0.8, 10.0),
     "span": (0.1, 1.5),
     "amplitude": (0.0, 1.0),
     "bend": (0.0, 1.5),
