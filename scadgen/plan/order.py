@@ -19,17 +19,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from scadgen.errors import InputError
 from scadgen.interlock.path import Path
 from scadgen.kit.model import Kit, Way
 from scadgen.plan.model import Move, Plan, Step
 from scadgen.plan.proof import Found, Prover
+from scadgen.plan.slides import clusters as clusters_of
+from scadgen.plan.slides import tubes_of
 from scadgen.plan.standing import Site, Standing, stand
 from scadgen.solid.affine import Floats
 
@@ -99,6 +98,7 @@ class _Planner:
         self._standing, self._say = standing, say
         self._side, self._unit = standing.kit.values["side"], standing.kit.values["edge_length"]
         self._prover = Prover(standing)
+        self._tubes = tubes_of(standing)
         self._tables: list[set[int]] = [set(range(len(standing.kit.placements)))]
         self._steps: list[Step] = []
         self._out = 0
@@ -117,7 +117,7 @@ class _Planner:
 
     def _rows(self) -> None:
         """Take rows apart that parallel pegs hold."""
-        clusters = self._clusters()
+        clusters = clusters_of(self._standing)
         waves: list[list[Move]] = []
         left = self._tables.pop()
         while len(clusters) > 1:
@@ -137,23 +137,6 @@ class _Planner:
             self._steps.append(Step("rows", moves))
         else:
             self._steps += [Step("rows", tuple(_numbered([wave]))) for wave in waves]
-
-    def _clusters(self) -> list[frozenset[int]]:
-        """Parts that hang together but for pegs that are part of tubes."""
-        pairs = []
-        for site in self._standing.sites:
-            own = [part for _, part in self._held(site)]
-            pairs += [(own[0], part) for part in own]
-        count = len(self._standing.kit.placements)
-        rows, columns = np.array(pairs).T
-        graph = coo_array((np.ones(len(rows)), (rows, columns)), shape=(count, count))
-        number, label = connected_components(graph, directed=False)
-        return [frozenset(np.flatnonzero(label == n).tolist()) for n in range(number)]
-
-    def _held(self, site: Site) -> list[tuple[int, int]]:
-        """Pieces of a joint and their parts, without fixed pegs, which only slide there."""
-        fixed = {n for n in site.pieces("peg") if site.parts[n] in self._standing.elements}
-        return [(n, part) for n, part in site.parts.items() if n not in fixed]
 
     def _row_wave(self, clusters: Sequence[frozenset[int]], left: set[int]) -> list[Move] | None:
         """The next row that slides off, or single elements that do; None if nothing does."""
@@ -176,26 +159,14 @@ class _Planner:
         """The direction in which a row slides off all pegs, if there is one."""
         there = frozenset().union(*clusters)
         found: Floats | None = None
-        for element, half, away in self._pegged:
-            inside = element in cluster, half in cluster
-            if inside[0] == inside[1] or not {element, half} <= there:
+        for tube in self._tubes:
+            inside = tube.element in cluster, tube.half in cluster
+            if inside[0] == inside[1] or not {tube.element, tube.half} <= there:
                 continue
-            way = away if inside[0] else -away
+            way = tube.out if inside[0] else -tube.out
             if found is not None and float(way @ found) < 1 - _PARALLEL:
                 return None
             found = way
-        return found
-
-    @cached_property
-    def _pegged(self) -> list[tuple[int, int, Floats]]:
-        """Elements with fixed pegs: the half that each is in, and the direction out of it."""
-        found = []
-        for site in self._standing.sites:
-            for peg in site.pieces("peg"):
-                if site.parts[peg] in self._standing.elements:
-                    angle = site.direction(peg)
-                    away = np.array([np.cos(angle), np.sin(angle)])
-                    found.append((site.parts[peg], site.parts[0], away))
         return found
 
     def _slid(self, cluster: frozenset[int], way: Floats, left: set[int]) -> Move:
