@@ -38,16 +38,22 @@ def plan(folder: Path, output: Path | None, as_json: bool) -> int:  # noqa: FBT0
     from scadgen.kit.store import load
     from scadgen.plan.folder import check_plan_folder, write_plan
     from scadgen.plan.order import make_plan
+    from scadgen.plan.picture import step_pictures
     from scadgen.plan.told import dumps, plan_entry, plan_text
+    from scadgen.plan.whole import whole_frame
 
     kit = load(folder)
     target = output or (folder if folder.is_dir() else folder.parent) / "plan"
     check_plan_folder(target)
     with progress(f"planning {folder}") as bar:
         made = make_plan(kit, lambda share, words: bar.reach(_ORDERED * share, words))
-        text, entry = plan_text(made), plan_entry(made)
-        write_plan({"plan.json": dumps(entry), "plan.txt": text}, target)
+        bar.reach(_ORDERED, "proving that the finished frame holds")
+        whole = whole_frame(made.standing)
+        bar.reach(_HELD, "drawing the steps")
+        pictures = step_pictures(made)
+        text, entry = plan_text(made, whole), plan_entry(made, whole, list(pictures))
+        write_plan({"plan.json": dumps(entry), "plan.txt": text, **pictures}, target)
     click.echo(dumps(entry) if as_json else text, nl=False)
     if not as_json:
         click.echo(f"next: the pictures in {click.format_filename(target)}")
-    return 0 if made.proved else 1
+    return 0 if made.proved and whole.held else 1

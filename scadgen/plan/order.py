@@ -381,10 +381,8 @@ class _Trees:
             way = ways[0]
             branch = self._beyond(there[way.moving[0]], joint)
             path = way.path.scaled(side)
-            if 2 * len(branch) <= len(group):
-                yield _Choice(branch, joint, path, site.at, site.turn)
-            else:
-                yield _Choice(group - branch, joint, _inverse(path), site.at, site.turn)
+            yield _Choice(branch, joint, path, site.at, site.turn)
+            yield _Choice(group - branch, joint, _inverse(path), site.at, site.turn)
 
     def _free(self, group: frozenset[int]) -> _Choice:
         """A part that no other holds: straight up."""

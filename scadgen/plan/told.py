@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,8 +13,9 @@ from scadgen import __version__
 from scadgen.frame.layout import bill
 from scadgen.plan.model import Move, Plan, Step
 from scadgen.plan.pegs import Pegs, count_pegs
+from scadgen.plan.whole import Whole
 
-__all__ = ["FORMAT", "VERSION", "dumps", "plan_entry", "plan_text", "sentence"]
+__all__ = ["FORMAT", "VERSION", "dumps", "finished", "plan_entry", "plan_text", "sentence"]
 
 FORMAT = "scadgen-plan"
 VERSION = 1
@@ -25,18 +27,21 @@ _DECIMALS = 6
 _NAMED = 12
 
 
-def plan_entry(plan: Plan, pictures: Mapping[int, str] | None = None) -> dict[str, Any]:
+def plan_entry(plan: Plan, whole: Whole, pictures: Sequence[str] = ()) -> dict[str, Any]:
     """A plan as JSON values; its schema is ``plan.schema.json`` beside this module.
 
     Parameters
     ----------
     plan
         The plan.
+    whole
+        What was found of the finished frame.
     pictures
-        Names of the files with the pictures, by the steps' numbers from 1.
+        Names of the files with the pictures of the steps, if there are any.
     """
     kit, pegs = plan.standing.kit, count_pegs(plan.standing)
     unit = kit.values["edge_length"]
+    names = pictures or [""] * len(plan.steps)
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -68,11 +73,20 @@ def plan_entry(plan: Plan, pictures: Mapping[int, str] | None = None) -> dict[st
                 "what": step.what,
                 "text": sentence(plan, number),
                 "proved": step.proved,
-                "picture": (pictures or {}).get(number, ""),
+                "picture": picture,
                 "moves": [_move(move, unit) for move in step.moves],
             }
-            for number, step in enumerate(plan.steps, 1)
+            for number, (step, picture) in enumerate(zip(plan.steps, names, strict=True), 1)
         ],
+        "finished": {
+            "parts": whole.parts,
+            "contacts": whole.contacts,
+            "forces": whole.forces,
+            "held": whole.held,
+            "moves": whole.moves,
+            "loose": [{"parts": list(one.parts), "way": _rounded(one.way)} for one in whole.loose],
+            "text": finished(plan, whole),
+        },
         "ways": [
             {"middle_mm": _rounded(way.middle), "steps": [_rounded(s) for s in way.steps()]}
             for way in plan.ways
@@ -107,7 +121,7 @@ def _move(move: Move, unit: float) -> dict[str, Any]:
         "way": move.way,
         "at_mm": _rounded(unit * np.array(move.at)),
         "turn_deg": round(move.turn, _DECIMALS),
-        "gap_mm": round(move.gap, _DECIMALS),
+        "gap_mm": round(move.gap, _DECIMALS) if math.isfinite(move.gap) else None,
         "reason": move.reason,
     }
 
@@ -116,7 +130,7 @@ def _rounded(values: Iterable[float]) -> list[float]:
     return [round(float(v), _DECIMALS) + 0.0 for v in values]
 
 
-def plan_text(plan: Plan) -> str:
+def plan_text(plan: Plan, whole: Whole) -> str:
     """A plan as lines for people."""
     kit, pegs = plan.standing.kit, count_pegs(plan.standing)
     kinds = len(bill(kit.placements, kit.parts))
@@ -130,7 +144,25 @@ def plan_text(plan: Plan) -> str:
             for move in step.moves
             if not move.proved
         ]
+    lines.append(f"finished: {finished(plan, whole)}")
     return "\n".join(lines) + "\n"
+
+
+def finished(plan: Plan, whole: Whole) -> str:
+    """What can still move in the finished frame, and what holds it."""
+    sets = [one.parts for one in whole.loose if len(one.parts) > 1]
+    pegs = sum(len(one.parts) == 1 for one in whole.loose)
+    if not whole.held:
+        return f"NOT HELD: {_bill(plan, sorted(set().union(*sets)))} can move"
+    proof = f"proved by {whole.forces} contacts in balance"
+    fit = "only the fit of the pegs holds in what went in last"
+    able = [f"{_count(pegs, 'peg')} along {'its edge' if pegs == 1 else 'their edges'}"] * (
+        pegs > 0
+    )
+    if whole.moves == "pegs":
+        return f"nothing moves but {able[0]}, {proof}; {fit}"
+    able += [f"{len(parts)} parts as one off their pegs" for parts in sets]
+    return f"nothing moves unless a peg slides, {proof}; what can: {', '.join(able)}; {fit}"
 
 
 def _pegs(pegs: Pegs) -> str:
