@@ -123,6 +123,18 @@ class Prover:
             self.ways.append(path)
         return self._numbers[key]
 
+    def mesh(self, part: int, at: tuple[float, float], turn: float) -> Mesh:
+        """A part's mesh where it stands as a way sees it, in mm."""
+        place = self._standing.kit.placements[part]
+        pose = self._pose(place, at, turn)
+        triangles = self._standing.kit.parts[place.part].triangles
+        return self._body(place).points @ pose[:3, :3].T + pose[:3, 3], triangles
+
+    def place(self, part: int, at: tuple[float, float], turn: float) -> tuple[str, bool, bytes]:
+        """What a part is and where it stands as a way sees it: the same for what is alike."""
+        place = self._standing.kit.placements[part]
+        return place.part, place.flip, self._pose(place, at, turn).tobytes()
+
     def lifted(
         self, path: Path, moving: Sequence[int], at: tuple[float, float], turn: float, up: float
     ) -> Path:
@@ -185,8 +197,7 @@ class Prover:
 
     def _aside(self, way: int, part: int, at: tuple[float, float], turn: float) -> float:
         """How far a part goes aside on a way at most, in mm: not up, which brings nothing near."""
-        place = self._standing.kit.placements[part]
-        key = way, place.part, place.flip, self._pose(place, at, turn).tobytes()
+        key = way, *self.place(part, at, turn)
         if key not in self._asides:
             path, points = self.ways[way], self._points(part, at, turn)
             reach = float(np.linalg.norm(points - path.middle, axis=1).max())
@@ -226,18 +237,12 @@ class Prover:
 
     def _gap(self, way: int, part: int, other: int, at: tuple[float, float], turn: float) -> float:
         """Smallest gap of two parts while one moves, 0 if it is not proved."""
-        mover, stays = (self._standing.kit.placements[n] for n in (part, other))
-        poses = self._pose(mover, at, turn), self._pose(stays, at, turn)
-        key = (
-            way,
-            *(
-                (p.part, p.flip, pose.tobytes())
-                for p, pose in zip((mover, stays), poses, strict=True)
-            ),
-        )
+        key = way, self.place(part, at, turn), self.place(other, at, turn)
         if key not in self.known:
+            mover, stays = (self._standing.kit.placements[n] for n in (part, other))
             bodies = self._body(mover), self._body(stays)
-            self.known[key] = self._narrowest(self.ways[way], bodies, poses)
+            places = self._pose(mover, at, turn), self._pose(stays, at, turn)
+            self.known[key] = self._narrowest(self.ways[way], bodies, places)
         return self.known[key]
 
     def _narrowest(
