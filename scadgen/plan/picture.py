@@ -1,7 +1,8 @@
 """Pictures of a plan's steps, as SVG: the frame from above, what goes in coloured.
 
 What is there already is grey, what comes later is left out.  Numbers on parts are the order
-in which they go in; numbers in joints are the joints'.
+in which they go in, in a square if what is joined already goes in as one there; numbers in
+joints are the joints'.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ _XML = "http://www.w3.org/2000/svg"
 #: Length of the median edge, and width of the margin, in pixels.
 _EDGE, _MARGIN = 110.0, 50.0
 
-#: Widest that a picture is, in pixels: larger frames are drawn smaller.
-_WIDEST = 1600.0
+#: Widest that a picture is, in pixels: larger frames are drawn smaller; and narrowest.
+_WIDEST, _NARROWEST = 1600.0, 700.0
 
 #: Room for the sentence above the drawing, its text's size, and characters in a line for each
 #: pixel of width.
@@ -87,7 +88,7 @@ class _Page:
         low, high = points.min(axis=0) - _AWAY, points.max(axis=0) + _AWAY
         wide = float((high - low)[0])
         self._scale = min(_EDGE, (_WIDEST - 2 * _MARGIN) / wide)
-        self._width = self._scale * wide + 2 * _MARGIN
+        self._width = max(self._scale * wide + 2 * _MARGIN, _NARROWEST)
         self._low = low
         lines = _lines(f"{number}. {sentence(plan, number)}", int(_LETTERS * self._width))
         self._lines = lines
@@ -125,24 +126,30 @@ class _Page:
 
     def _resting(self) -> Iterator[str]:
         """What is there before the step."""
-        moving = {part for move in self._moves for part in move.parts}
+        coloured = self._coloured()
         for part in self._there:
-            if part not in moving:
+            if part not in coloured:
                 yield self._part(part, _THERE, np.zeros(2))
+
+    def _coloured(self) -> set[int]:
+        """What goes in; of what is joined already and goes in as one, rows alone."""
+        rows = self._plan.steps[self._number - 1].what == "rows"
+        sets = [move.parts for move in self._moves if rows or len(move.parts) == 1]
+        return {part for parts in sets for part in parts}
 
     def _moving(self) -> Iterator[str]:
         """What goes in, its numbers, and arrows at rows."""
-        places = self._plan.standing.kit.placements
+        places, coloured = self._plan.standing.kit.placements, self._coloured()
         numbered = max(move.order for move in self._moves) > 1
         for move in sorted(self._moves, key=lambda m: len(m.parts), reverse=True):
             away = self._away(move)
-            for part in move.parts:
+            for part in sorted(coloured.intersection(move.parts)):
                 colour = "#{:02x}{:02x}{:02x}".format(*COLOURS[places[part].role])
                 yield self._part(part, colour, away)
-            if away.any():
+            if away.any() and len(move.parts) > 1:
                 yield self._arrow(move, away)
-            if numbered and len(move.parts) == 1:
-                yield self._order(move, away)
+        if numbered:
+            yield from map(self._order, self._moves)
 
     def _away(self, move: Move) -> Floats:
         """How far from their place a move's parts are drawn, in edge lengths."""
@@ -179,8 +186,6 @@ class _Page:
         places = self._plan.standing.kit.placements
         ends = np.array([end for n in move.parts for end in self._ends(n, places[n])])
         middle = (ends.min(axis=0) + ends.max(axis=0)) / 2
-        if len(move.parts) == 1:
-            return ""
         start, stop = self._on_page(middle + away), self._on_page(middle + 0.15 * away)
         ahead = (stop - start) / np.linalg.norm(stop - start)
         across = np.array([-ahead[1], ahead[0]])
@@ -188,19 +193,24 @@ class _Page:
         points = " ".join(f"{x:.1f},{y:.1f}" for x, y in (stop, *barbs))
         return f'{_path(start, stop - 8 * ahead, _DARK, 2.5)}<polygon points="{points}"/>'
 
-    def _order(self, move: Move, away: Floats) -> str:
-        """A part's number in the order."""
-        (part,) = move.parts
-        place = self._plan.standing.kit.placements[part]
-        ends = self._ends(part, place)
-        at = self._on_page((ends[0] + ends[-1]) / 2 + away)
-        if len(ends) == 1:
-            at = at + 2.2 * _JOINT * self._scale * _ahead(place.turn) * (1.0, -1.0)
+    def _order(self, move: Move) -> str:
+        """A move's number in the order: round at a part, square at the joint of several."""
         size = _NUMBER * self._scale
-        x, y = at
+        if len(move.parts) > 1:
+            x, y = self._on_page(np.array(self._plan.standing.sites[move.joint].at))
+            mark = (
+                f'<rect x="{x - 0.8 * size:.1f}" y="{y - 0.8 * size:.1f}" '
+                f'width="{1.6 * size:.1f}" height="{1.6 * size:.1f}"'
+            )
+        else:
+            (part,) = move.parts
+            place = self._plan.standing.kit.placements[part]
+            ends = self._ends(part, place)
+            ahead = 2.2 * _JOINT * self._scale * _ahead(place.turn) * (1.0, -1.0)
+            x, y = self._on_page((ends[0] + ends[-1]) / 2) + ahead * (len(ends) == 1)
+            mark = f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{0.8 * size:.1f}"'
         return (
-            f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{0.8 * size:.1f}" fill="white" '
-            f'stroke="{_DARK}" stroke-width="0.8"/>'
+            f'{mark} fill="white" stroke="{_DARK}" stroke-width="0.8"/>'
             f'<text x="{x:.1f}" y="{y + 0.36 * size:.1f}">{move.order}</text>'
         )
 

@@ -131,7 +131,15 @@ def _rounded(values: Iterable[float]) -> list[float]:
 
 
 def plan_text(plan: Plan, whole: Whole) -> str:
-    """A plan as lines for people."""
+    """A plan as lines for people.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    whole
+        What was found of the finished frame.
+    """
     kit, pegs = plan.standing.kit, count_pegs(plan.standing)
     kinds = len(bill(kit.placements, kit.parts))
     good = "each proved" if plan.proved else "NOT ALL PROVED"
@@ -149,7 +157,15 @@ def plan_text(plan: Plan, whole: Whole) -> str:
 
 
 def finished(plan: Plan, whole: Whole) -> str:
-    """What can still move in the finished frame, and what holds it."""
+    """What can still move in the finished frame, and what holds it.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    whole
+        What was found of the frame.
+    """
     sets = [one.parts for one in whole.loose if len(one.parts) > 1]
     pegs = sum(len(one.parts) == 1 for one in whole.loose)
     if not whole.held:
@@ -174,7 +190,15 @@ def _pegs(pegs: Pegs) -> str:
 
 
 def sentence(plan: Plan, number: int) -> str:
-    """What to do in a step, numbered from 1."""
+    """What to do in a step.
+
+    Parameters
+    ----------
+    plan
+        The plan.
+    number
+        The step's number, from 1.
+    """
     step = plan.steps[number - 1]
     gap = min(move.gap for move in step.moves)
     told = {"connectors": _joined, "rows": _rows, "pegs": _pieces, "halves": _pieces}
@@ -187,7 +211,7 @@ def _joined(plan: Plan, step: Step) -> str:
     rounds = max(move.order for move in step.moves)
     order = f", in {rounds} rounds as numbered" if rounds > 1 else ""
     sets = sum(len(move.parts) > 1 for move in step.moves)
-    several = f"; {_count(sets, 'time')} what is joined already goes in as one" if sets else ""
+    several = f"; what is joined by then goes in as one {_count(sets, 'time')}" if sets else ""
     moved = [part for move in step.moves if len(move.parts) == 1 for part in move.parts]
     return f"Lay out {_bill(plan, first)}; join {_bill(plan, moved)} to them{order}{several}"
 
@@ -229,7 +253,7 @@ def _numbers(plan: Plan, joints: list[int]) -> str:
 def _bill(plan: Plan, parts: Iterable[int]) -> str:
     kit = plan.standing.kit
     counts = bill((kit.placements[n] for n in parts), kit.parts)
-    return ", ".join(f"{count} {name}" for name, count in counts.items())
+    return ", ".join(f"{count} x {name}" for name, count in counts.items())
 
 
 def _count(number: int, what: str) -> str:

@@ -16,10 +16,11 @@ in their tubes as well: if nothing moves now, nothing ever does unless a peg sli
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from scadgen.check.geometry import placed
@@ -34,7 +35,7 @@ from scadgen.plan.slides import sliding
 from scadgen.plan.standing import Standing
 from scadgen.solid.affine import Floats
 
-__all__ = ["Loose", "Whole", "opens", "whole_frame"]
+__all__ = ["Loose", "Whole", "frame_contacts", "opens", "whole_frame"]
 
 #: Faces closer than this, in sides, touch; without clearance they coincide.
 _TOUCH = 1e-5
@@ -101,59 +102,81 @@ class _Peg:
     alone: bool
 
 
-def whole_frame(standing: Standing) -> Whole:
+def whole_frame(standing: Standing, gone: Collection[int] = ()) -> Whole:
     """Find out what of a finished frame can move.
 
     Parameters
     ----------
     standing
         The frame.
+    gone
+        Numbers of parts that are not there.
     """
-    contacts, boxes = _all_contacts(standing), _boxes(standing)
-    pegs = list(_pegs(standing))
-    loose = [motion for motion in _motions(standing, pegs) if opens(contacts, motion)]
-    held = (max(standing.elements),)
-    only_pegs = _locked(boxes, _stopped(contacts, pegs), held)
-    if only_pegs is not None:
+    contacts, boxes = frame_contacts(standing), _boxes(standing)
+    contacts = contacts.some(np.flatnonzero(~_of(contacts, gone)))
+    pegs = [peg for peg in _pegs(standing) if not {peg.part, peg.half} & {*gone}]
+    loose = tuple(m for m in _motions(standing, pegs) if opens(contacts, m))
+    held = (max(standing.elements - {*gone}), *gone)
+    parts, count = len(boxes) - len(gone), len(contacts)
+    if forces := _locked(boxes, _stopped(contacts, pegs), held):
         moves = "pegs" if all(peg.alone for peg in pegs) else "rows"
-        return Whole(len(boxes), len(contacts), tuple(loose), only_pegs, moves)
+        return Whole(parts, count, loose, forces, moves)
     stopped = _stopped(contacts, pegs, tubes=True)
-    rows = _locked(boxes, stopped, held)
-    if rows is not None:
-        return Whole(len(boxes), len(contacts), tuple(loose), rows, "rows")
+    if forces := _locked(boxes, stopped, held):
+        return Whole(parts, count, loose, forces, "rows")
     found = verdict(make_assembly(boxes, stopped, held))
     moving = found.parts if isinstance(found, Motion) else ()
-    return Whole(len(boxes), len(contacts), (*loose, Loose(moving, (0.0, 0.0))), 0, "more")
+    return Whole(parts, count, (*loose, Loose(moving, (0.0, 0.0))), 0, "more")
+
+
+def _of(contacts: Contacts, parts: Collection[int]) -> NDArray[np.bool_]:
+    """Which contacts are of some parts."""
+    some = list(parts)
+    return np.isin(contacts.first, some) | np.isin(contacts.second, some)
 
 
 def opens(contacts: Contacts, motion: Loose) -> bool:
-    """Whether no contact is in the way of parts that move straight."""
+    """Whether no contact is in the way of parts that move straight.
+
+    Parameters
+    ----------
+    contacts
+        All contacts.
+    motion
+        What moves, and where to.
+    """
     inside = np.isin(contacts.first, motion.parts), np.isin(contacts.second, motion.parts)
     speed = inside[1].astype(float) - inside[0]
     along = contacts.normals @ np.array([*motion.way, 0.0])
     return bool((speed * along > -_SLIDES).all())
 
 
-def _locked(boxes: Sequence[Mesh], contacts: Contacts, held: tuple[int, ...]) -> int | None:
-    """How many forces in balance lock parts, their certificate checked; None if none are found.
+def _locked(boxes: Sequence[Mesh], contacts: Contacts, held: tuple[int, ...]) -> int:
+    """How many forces in balance lock parts, their certificate checked; 0 if none are found.
 
     All contacts are taken at once, for they are few already.
     """
     assembly = make_assembly(boxes, contacts, held)
     forces = equilibrium(assembly.rows)
     if forces is None or unfelt(assembly.rows) is not None:
-        return None
+        return 0
     # In a large frame little stiffness is left, so that what is off balance counts for more.
     forces = balanced(assembly.rows, forces)
     if forces is None:
-        return None
+        return 0
     found = Certificate(np.arange(len(forces)), forces, assembly.rows.shape[1])
     good = check_certificate(contacts, held, len(boxes), found) < BALANCED
-    return len(forces) if good else None
+    return len(forces) if good else 0
 
 
-def _all_contacts(standing: Standing) -> Contacts:
-    """Contacts between all parts of the frame, in mm."""
+def frame_contacts(standing: Standing) -> Contacts:
+    """The extreme contacts between all parts of a frame without clearance, in mm.
+
+    Parameters
+    ----------
+    standing
+        The frame.
+    """
     unit = standing.kit.values["edge_length"]
     kinds = {id(site.kind): site.kind for site in standing.sites}
     touching = {key: _touching(standing, kind) for key, kind in kinds.items()}
