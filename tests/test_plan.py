@@ -1,5 +1,6 @@
 """Plans: every step is replayed against all that is there, by code of the tests' own."""
 
+import itertools
 import json
 import math
 import xml.etree.ElementTree as ET
@@ -20,7 +21,9 @@ from scadgen.cli.main import main
 from scadgen.errors import InputError
 from scadgen.frame.layout import LAYOUTS
 from scadgen.interlock.contacts import find_contacts
+from scadgen.interlock.escape import Attempts
 from scadgen.kit.store import dumps as kit_text
+from scadgen.plan import search
 from scadgen.plan.order import make_plan
 from scadgen.plan.pegs import count_pegs
 from scadgen.plan.proof import Prover
@@ -29,7 +32,7 @@ from scadgen.plan.told import plan_entry
 from scadgen.plan.whole import frame_contacts, whole_frame
 
 #: Frames that are planned: name, key, rows, columns.
-FRAMES = [("hexagonal", "fixed", 1, 2), ("square", "fixed", 2, 1), ("square", "loose", 1, 1)]
+FRAMES = [("hexagonal", "fixed", 1, 1), ("square", "fixed", 1, 1), ("square", "loose", 1, 1)]
 every = pytest.mark.parametrize("frame", FRAMES, ids=lambda f: "-".join(map(str, f)))
 
 
@@ -69,8 +72,9 @@ def backwards(entry):
         for order in sorted({move["order"] for move in step["moves"]}, reverse=True):
             wave = [move for move in step["moves"] if move["order"] == order]
             rest = [next(t for t in tables if {*move["parts"]} <= t) for move in wave]
-            yield from [(step, move, sorted(t - {*move["parts"]})) for move, t in zip(wave, rest)]
-            for move, table in zip(wave, rest, strict=True):
+            pairs = list(zip(wave, rest, strict=True))
+            yield from [(step, move, sorted(table - {*move["parts"]})) for move, table in pairs]
+            for move, table in pairs:
                 table -= {*move["parts"]}
                 tables.append({*move["parts"]})
     assert all(len(table) == 1 for table in tables if table)
@@ -92,7 +96,7 @@ def poses(entry, move, step=1.0):
     middle, keys = np.array(way["middle_mm"]), np.array(way["steps"])
     spin = Rotation.from_euler("z", move["turn_deg"], degrees=True)
     origin = np.array([*move["at_mm"], 0.0])
-    for one, other in zip(keys, keys[1:], strict=False):
+    for one, other in itertools.pairwise(keys):
         first, last = Rotation.from_rotvec(one[3:]), Rotation.from_rotvec(other[3:])
         turning = (first.inv() * last).as_rotvec()
         far = np.linalg.norm(other[:3] - one[:3]) + 150 * np.linalg.norm(turning)
@@ -146,9 +150,9 @@ def test_hexagons_need_no_loose_peg_and_rows_go_on_as_one():
     *_, row = plan.steps
     assert row.what == "rows"
     (move,) = row.moves
-    # Two lines of two hexagons: five joints and four elements each, caps, halves and rim pegs.
+    # The upper half of a hexagon: three joints, the middle one with a peg at the rim.
     roles = Counter(plan.standing.kit.placements[part].role for part in move.parts)
-    assert roles == {"row": 4, "cap": 2, "half_a": 5, "half_b": 5, "peg": 2}
+    assert roles == {"row": 2, "cap": 2, "half_a": 3, "half_b": 3, "peg": 1}
     assert move.turn == pytest.approx(90)
 
 
@@ -263,7 +267,8 @@ def test_the_command_writes_json_text_and_pictures(run, folder, tmp_path):
     assert json.loads(said) == entry
 
 
-def test_a_step_that_is_not_proved_is_told_with_its_joint(run, folder):
+def test_a_step_that_is_not_proved_is_told_with_its_joint(run, folder, monkeypatch):
+    monkeypatch.setattr(search, "escape", lambda *_, **__: Attempts(1, 1, in_time=True))
     text = (folder / "kit.json").read_text(encoding="utf-8")
     document = json.loads(text)
     (way,) = [w for w in document["joints"][0]["ways"] if w["name"].startswith("the peg")]

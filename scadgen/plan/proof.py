@@ -8,6 +8,7 @@ conservative advancement, as in `interlock.path.narrowest`.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -30,11 +31,17 @@ if TYPE_CHECKING:
 
 __all__ = ["Found", "Prover"]
 
-#: Gap that a part keeps on its way, and how far is looked first, as shares of the clearance.
-_LEAST, _LOOK = 0.05, 2.0
+#: Gap that a part keeps on its way, as a share of the clearance.
+_LEAST = 0.05
+
+#: Gap beyond which none is looked for at first, likewise.
+_LOOK = 2.0
 
 #: Gaps beyond this are not looked for, in sides.
 _FAR = 2.0
+
+#: Poses of a proof after which some ahead are looked at, and how many: a narrow way takes many.
+_LONG, _AHEAD = 60, 24
 
 #: Decimals, in mm and degrees, to which places are compared.
 _DECIMALS = 6
@@ -255,22 +262,36 @@ class Prover:
         reach = float(np.linalg.norm(hull - path.middle, axis=1).max())
         ends = np.concatenate([[0.0], np.cumsum(path.lengths(reach))])
         times, at = np.arange(len(ends)), path.between()
+
+        def gap_at(gone: float, look: float) -> float:
+            pose = back @ at(np.array([np.interp(gone, ends, times)]))[0] @ places[0]
+            return _gap_of(mover, stays, pose, look)
+
         gone, worst, look = 0.0, math.inf, self._look
-        while True:
-            pose = at(np.array([np.interp(gone, ends, times)]))[0]
-            pose = back @ pose @ places[0]
-            points = mover.hull @ pose[:3, :3].T + pose[:3, 3]
-            apart = np.maximum(stays.low - points.max(axis=0), points.min(axis=0) - stays.high)
-            gap = float(np.linalg.norm(np.maximum(apart, 0.0)))
-            if gap < look:
-                gap = float(mover.manifold.transform(pose[:3]).min_gap(stays.manifold, look))
-                look = min(2 * look, _FAR * self._side) if gap >= look else self._look
+        for tries in itertools.count(1):
+            gap = gap_at(gone, look)
             worst = min(worst, gap)
             if gap < self._least or not self._least > 0:
                 return 0.0
             if gone >= ends[-1]:
-                return worst
+                break
+            if tries == _LONG:  # one that is shut farther on is told sooner so
+                ahead = np.linspace(gone, ends[-1], _AHEAD)
+                if any(gap_at(place, self._least) < self._least for place in ahead):
+                    return 0.0
+            look = min(2 * look, _FAR * self._side) if gap >= look else self._look
             gone = min(gone + gap, float(ends[-1]))
+        return worst
+
+
+def _gap_of(mover: _Body, stays: _Body, pose: Floats, look: float) -> float:
+    """Gap of two bodies, one of them at a pose; where their boxes are farther apart, of those."""
+    points = mover.hull @ pose[:3, :3].T + pose[:3, 3]
+    apart = np.maximum(stays.low - points.max(axis=0), points.min(axis=0) - stays.high)
+    gap = float(np.linalg.norm(np.maximum(apart, 0.0)))
+    if gap >= look:
+        return gap
+    return float(mover.manifold.transform(pose[:3]).min_gap(stays.manifold, look))
 
 
 class _Body:
