@@ -23,7 +23,7 @@ from scadgen.frame.layout import LAYOUTS
 from scadgen.interlock.contacts import find_contacts
 from scadgen.interlock.escape import Attempts
 from scadgen.kit.store import dumps as kit_text
-from scadgen.plan import search
+from scadgen.plan import order, search
 from scadgen.plan.order import make_plan
 from scadgen.plan.pegs import count_pegs
 from scadgen.plan.proof import Prover
@@ -69,8 +69,8 @@ def backwards(entry):
     """
     tables = [set(range(len(entry["parts"])))]
     for step in reversed(entry["steps"]):
-        for order in sorted({move["order"] for move in step["moves"]}, reverse=True):
-            wave = [move for move in step["moves"] if move["order"] == order]
+        for turn in sorted({move["order"] for move in step["moves"]}, reverse=True):
+            wave = [move for move in step["moves"] if move["order"] == turn]
             rest = [next(t for t in tables if {*move["parts"]} <= t) for move in wave]
             pairs = list(zip(wave, rest, strict=True))
             yield from [(step, move, sorted(table - {*move["parts"]})) for move, table in pairs]
@@ -243,7 +243,7 @@ def folder(tmp_path):
     return place
 
 
-def test_the_command_writes_json_text_and_pictures(run, folder, tmp_path):
+def test_the_command_writes_json_text_and_pictures(run, folder, tmp_path, monkeypatch):
     code, out, err = run(folder)
     assert (code, err) == (0, "")
     plan = folder / "plan"
@@ -260,6 +260,12 @@ def test_the_command_writes_json_text_and_pictures(run, folder, tmp_path):
         assert f"{number:3d}. {step['text']}" in out
         page = ET.fromstring((plan / step["picture"]).read_text(encoding="utf-8"))  # noqa: S314
         assert page.tag.endswith("svg")
+    # The same plan as was made before, of the same kit.
+    before = told(FRAMES[0])
+    for step in before["steps"]:
+        step["picture"] = f"plan-{step['step']:02d}.svg"
+    assert entry == before
+    monkeypatch.setattr(order, "make_plan", lambda *_: planned(FRAMES[0]))
     again = tmp_path / "again"
     code, said, _ = run(folder, "-o", again, "--json")
     assert code == 0

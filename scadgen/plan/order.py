@@ -76,7 +76,7 @@ class _Planner:
         self._search = Search(standing, self._prover)
         self._tables: list[set[int]] = [set(range(len(standing.kit.placements)))]
         self._steps: list[Step] = []
-        self._done = 0
+        self._done = self._told = 0
 
     def plan(self) -> Plan:
         """The plan: what comes out last goes in first."""
@@ -199,6 +199,9 @@ class _Planner:
     def _tried(self, choice: Choice, ways: Iterable[Path]) -> Move:
         """The move on the first of some ways that is proved, else on the first."""
         rest, moving = self._table(choice.parts), sorted(choice.parts)
+        if len(self._prover.known) > self._told:  # what is known already is quick
+            self._told = len(self._prover.known)
+            self._say(self._share, f"proving joint {choice.joint + 1}")
         tried: list[Found] = []
         for way in ways:
             found = self._prover.proved(way, moving, rest, choice.at, choice.turn)

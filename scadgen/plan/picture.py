@@ -1,8 +1,8 @@
 """Pictures of a plan's steps, as SVG: the frame from above, what goes in coloured.
 
 What is there already is grey, what comes later is left out.  Numbers on parts are the order
-in which they go in, in a square if what is joined already goes in as one there; numbers in
-joints are the joints'.
+in which they go in, in a square if what is joined already goes in as one there; where there
+is no order, numbers in joints are the joints'.
 """
 
 from __future__ import annotations
@@ -216,8 +216,8 @@ class _Page:
 
     def _joints(self) -> Iterator[str]:
         """Numbers of the joints that the step is about."""
-        if self._plan.steps[self._number - 1].what == "connectors":
-            return
+        if max(move.order for move in self._moves) > 1:
+            return  # the numbers are of the order
         size = _NUMBER * self._scale
         for joint in sorted({move.joint for move in self._moves if not self._away(move).any()}):
             x, y = self._on_page(np.array(self._plan.standing.sites[joint].at))
