@@ -13,6 +13,7 @@ import drawing
 import generating
 import in_freecad
 import locking
+import planning
 import proving
 import refining
 from report import heading, line, progress
@@ -42,6 +43,7 @@ def main() -> None:
             _try(measure, frame)
     locking.run()
     proving.run()
+    planning.run()
     in_freecad.run()
     heading("This run")
     line("wall time", f"{time.monotonic() - start:.0f} s", "at most 300 s")

@@ -17,6 +17,7 @@ from scadgen.cli.frame import frame
 from scadgen.cli.freecad import freecad
 from scadgen.cli.interlock import interlock
 from scadgen.cli.kit import kit
+from scadgen.cli.plan import plan
 from scadgen.cli.render import render
 from scadgen.cli.tune import tune
 from scadgen.errors import ScadgenError
@@ -33,7 +34,7 @@ def cli() -> None:
     """Turn a planar frame into 3D-printable parts that interlock without glue or screws."""
 
 
-for command in (kit, frame, bill, export, render, check, interlock, tune, freecad):
+for command in (kit, frame, bill, export, render, check, plan, interlock, tune, freecad):
     cli.add_command(command)
 
 

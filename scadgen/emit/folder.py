@@ -24,7 +24,7 @@ __all__ = ["check_folder", "files_of", "update_bill", "write_kit"]
 
 #: What a new kit makes stale: what the kit's Makefile and `scadgen render` write, and what not
 #: every kit has.
-_STALE = {"stl", "3mf", "png", "plates", ".build", "assembly.png", "placing.svg"}
+_STALE = {"stl", "3mf", "png", "plates", ".build", "assembly.png", "placing.svg", "plan"}
 
 
 def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:

@@ -1,0 +1,207 @@
+"""A kit's frame as parts and joints: which part is which piece of which joint."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from scadgen.errors import InputError, InvariantError
+from scadgen.frame.placement import Placement
+from scadgen.kit.model import Joint, Kit
+from scadgen.solid.affine import Floats
+
+__all__ = ["Site", "Standing", "stand"]
+
+#: Directions as near as this are the same, in degrees; edges are at least 25 degrees apart.
+_ANGLE = 0.5
+
+#: Roles of edge elements.
+_ELEMENTS = ("row", "cross")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Site:
+    """A joint of the frame.
+
+    Parameters
+    ----------
+    kind
+        What kind of joint stands there.
+    at
+        Where, in edge lengths.
+    turn
+        Direction of its first key, in degrees.
+    parts
+        The part that each of the kind's pieces is or belongs to.  A fixed peg is its element.
+    tubes
+        The element whose end a loose peg goes into, by the number of its half A.
+    """
+
+    kind: Joint
+    at: tuple[float, float]
+    turn: float
+    parts: Mapping[int, int]
+    tubes: Mapping[int, int]
+
+    def pieces(self, *roles: str) -> list[int]:
+        """Numbers of the pieces that have one of some roles."""
+        return [n for n, place in enumerate(self.kind.pieces) if place.role in roles]
+
+    @property
+    def connectors(self) -> dict[int, int]:
+        """The part of each whole connector, by its piece."""
+        return {n: self.parts[n] for n in self.pieces("cap")}
+
+    def direction(self, piece: int) -> float:
+        """Direction of a piece's edge in the frame, in radians."""
+        return math.radians(self.turn + self.kind.pieces[piece].turn)
+
+
+@dataclass(frozen=True, eq=False)
+class Standing:
+    """A kit's frame.
+
+    Parameters
+    ----------
+    kit
+        The kit; its placements are the parts, and their numbers those of the parts.
+    sites
+        The joints, ascending by y, then x.
+    """
+
+    kit: Kit
+    sites: tuple[Site, ...]
+
+    @cached_property
+    def elements(self) -> frozenset[int]:
+        """Numbers of the edge elements."""
+        return frozenset(n for n, p in enumerate(self.kit.placements) if p.role in _ELEMENTS)
+
+    @cached_property
+    def sites_of(self) -> list[list[int]]:
+        """Numbers of the joints of each part."""
+        found: list[list[int]] = [[] for _ in self.kit.placements]
+        for number, site in enumerate(self.sites):
+            for part in sorted({*site.parts.values(), *site.tubes.values()}):
+                found[part].append(number)
+        return found
+
+    def keys(self, site: Site) -> dict[int, int | None]:
+        """The element on the edge of each of a joint's keys, if there is one, by its half A."""
+        pegs = zip(site.pieces("half_a"), site.pieces("peg"), strict=True)
+        fixed = {half: part for half, peg in pegs if (part := site.parts[peg]) in self.elements}
+        return {half: fixed.get(half, site.tubes.get(half)) for half in site.pieces("half_a")}
+
+    def length(self, part: int) -> float:
+        """Length of an element, in edge lengths."""
+        return _length(self.kit, self.kit.placements[part])
+
+
+def stand(kit: Kit) -> Standing:
+    """Find out which kind of joint stands where, and what its pieces are.
+
+    Parameters
+    ----------
+    kit
+        The kit.
+
+    Raises
+    ------
+    InputError
+        It is the kit of a single joint, without a frame.
+    InvariantError
+        A joint of the frame is none of the kit's kinds.
+    """
+    if not kit.placements:
+        msg = f"{kit.frame}: a kit without a frame has nothing to plan; name one of a frame"
+        raise InputError(msg)
+    places = sorted(
+        {p.at for p in kit.placements if p.role == "half_a"}, key=lambda at: (at[1], at[0])
+    )
+    tree = cKDTree(np.array(places))
+    at_vertex: list[list[_End]] = [[] for _ in places]
+    for number, placement in enumerate(kit.placements):
+        for point, turn in _ends(kit, placement):
+            vertex = int(tree.query(point)[1])
+            at_vertex[vertex].append(_End(number, placement, turn))
+    sites = [_site(kit, at, ends) for at, ends in zip(places, at_vertex, strict=True)]
+    return Standing(kit, tuple(sites))
+
+
+@dataclass(frozen=True, slots=True)
+class _End:
+    """What stands at a joint: a part, or one of an element's ends, and where it points."""
+
+    part: int
+    placement: Placement
+    turn: float
+
+    @property
+    def is_element(self) -> bool:
+        return self.placement.role in _ELEMENTS
+
+
+def _ends(kit: Kit, placement: Placement) -> Iterator[tuple[Floats, float]]:
+    """Where a part meets joints, and the direction that it has there."""
+    at, turn = np.array(placement.at), placement.turn
+    yield at, turn
+    if placement.role in _ELEMENTS:
+        ahead = np.array([math.cos(math.radians(turn)), math.sin(math.radians(turn))])
+        yield at + _length(kit, placement) * ahead, turn + 180.0
+
+
+def _length(kit: Kit, placement: Placement) -> float:
+    return float(kit.parts[placement.part].coefficients["edge_length"][:, 0].max())
+
+
+def _site(kit: Kit, at: tuple[float, float], ends: Sequence[_End]) -> Site:
+    """The joint that these ends make."""
+    for kind in kit.joints:
+        first = kind.pieces[0]
+        for end in ends:
+            if (end.placement.role, end.placement.part) != (first.role, first.part):
+                continue
+            turn = (end.turn - first.turn) % 360
+            found = _matched(kit, kind, turn, ends)
+            if found is not None:
+                return Site(kind, at, turn, *found)
+    msg = f"a joint at {at} is one of the kit's kinds"
+    raise InvariantError(msg)
+
+
+def _matched(
+    kit: Kit, kind: Joint, turn: float, ends: Sequence[_End]
+) -> tuple[dict[int, int], dict[int, int]] | None:
+    """The part of each piece and of each key's tube, if these ends are a joint of a kind."""
+    left = list(ends)
+
+    def take(piece: Placement, role: str | None) -> int | None:
+        for end in left:
+            off = (end.turn - turn - piece.turn + 180) % 360 - 180
+            fits = end.is_element if role is None else end.placement.role == role
+            named = role is None or end.placement.part == piece.part
+            if abs(off) < _ANGLE and fits and named:
+                left.remove(end)
+                return end.part
+        return None
+
+    parts: dict[int, int] = {}
+    tubes: dict[int, int] = {}
+    for number, piece in enumerate(kind.pieces):
+        part = take(piece, piece.role)
+        if part is None and (piece.role == "cap" or (piece.role == "peg" and kit.key == "fixed")):
+            part = take(piece, None)
+        if part is None:
+            return None
+        parts[number] = part
+    for number, piece in enumerate(kind.pieces):
+        if piece.role == "half_a" and kit.key == "loose":
+            part = take(piece, None)
+            if part is not None:
+                tubes[number] = part
+    return None if left else (parts, tubes)

@@ -1,0 +1,328 @@
+"""Plans: every step is replayed against all that is there, by code of the tests' own."""
+
+import itertools
+import json
+import math
+import xml.etree.ElementTree as ET
+from collections import Counter
+from dataclasses import replace
+from importlib import resources
+
+import numpy as np
+import pytest
+from jsonschema import Draft202012Validator
+from kits import kit, proved_kit
+from manifold3d import Manifold, Mesh64, OpType
+from scipy.spatial.transform import Rotation
+from shared import once
+
+from scadgen.check.proof import proved
+from scadgen.cli.main import main
+from scadgen.errors import InputError
+from scadgen.frame.layout import LAYOUTS
+from scadgen.interlock.contacts import find_contacts
+from scadgen.interlock.escape import Attempts
+from scadgen.kit.store import dumps as kit_text
+from scadgen.plan import order, search
+from scadgen.plan.order import make_plan
+from scadgen.plan.pegs import count_pegs
+from scadgen.plan.proof import Prover
+from scadgen.plan.standing import stand
+from scadgen.plan.told import plan_entry
+from scadgen.plan.whole import frame_contacts, whole_frame
+
+#: Frames that are planned: name, key, rows, columns.
+FRAMES = [("hexagonal", "fixed", 1, 1), ("square", "fixed", 1, 1), ("square", "loose", 1, 1)]
+every = pytest.mark.parametrize("frame", FRAMES, ids=lambda f: "-".join(map(str, f)))
+
+
+def framed(made, rows, columns):
+    places = LAYOUTS[made.frame](rows, columns, made.key)
+    return replace(made, rows=rows, columns=columns, placements=places)
+
+
+def checked(frame):
+    """A proved kit of a frame."""
+    name, key, rows, columns = frame
+    made = (
+        proved_kit(name)
+        if key == "fixed"
+        else once(f"proved-{name}-{key}", lambda _: proved(kit(name, key)))
+    )
+    return framed(made, rows, columns)
+
+
+def planned(frame):
+    name = "-".join(map(str, frame))
+    return once(f"plan-{name}", lambda _: make_plan(checked(frame)))
+
+
+def told(frame):
+    plan = planned(frame)
+    return json.loads(json.dumps(plan_entry(plan, whole_frame(plan.standing))))
+
+
+def backwards(entry):
+    """Moves of the frame being taken apart, each with what it leaves behind.
+
+    Those with the same order in a step leave each other behind as well.
+    """
+    tables = [set(range(len(entry["parts"])))]
+    for step in reversed(entry["steps"]):
+        for turn in sorted({move["order"] for move in step["moves"]}, reverse=True):
+            wave = [move for move in step["moves"] if move["order"] == turn]
+            rest = [next(t for t in tables if {*move["parts"]} <= t) for move in wave]
+            pairs = list(zip(wave, rest, strict=True))
+            yield from [(step, move, sorted(table - {*move["parts"]})) for move, table in pairs]
+            for move, table in pairs:
+                table -= {*move["parts"]}
+                tables.append({*move["parts"]})
+    assert all(len(table) == 1 for table in tables if table)
+
+
+def solid(made, part):
+    """A part of the frame as manifold3d takes it, where it stands."""
+    place = made.placements[part]
+    points = made.parts[place.part].points(made.values) * ([1, -1, -1] if place.flip else [1, 1, 1])
+    points = Rotation.from_euler("z", place.turn, degrees=True).apply(points)
+    points = points + made.values["edge_length"] * np.array([*place.at, 0.0])
+    mesh = Mesh64(points, made.parts[place.part].triangles.astype(np.uint64))
+    return Manifold(mesh)
+
+
+def poses(entry, move, step=1.0):
+    """Poses in the frame, so many that no point within 150 mm moves farther than a step."""
+    way = entry["ways"][move["way"]]
+    middle, keys = np.array(way["middle_mm"]), np.array(way["steps"])
+    spin = Rotation.from_euler("z", move["turn_deg"], degrees=True)
+    origin = np.array([*move["at_mm"], 0.0])
+    for one, other in itertools.pairwise(keys):
+        first, last = Rotation.from_rotvec(one[3:]), Rotation.from_rotvec(other[3:])
+        turning = (first.inv() * last).as_rotvec()
+        far = np.linalg.norm(other[:3] - one[:3]) + 150 * np.linalg.norm(turning)
+        for share in np.linspace(0, 1, max(2, math.ceil(far / step))):
+            turn = first * Rotation.from_rotvec(share * turning)
+            centre = middle + one[:3] + share * (other[:3] - one[:3])
+            whole = spin * turn * spin.inv()
+            # x in the frame goes to the way's own coordinates, along it, and back.
+            away = spin.apply(centre) + origin - whole.apply(spin.apply(middle) + origin)
+            yield np.hstack([whole.as_matrix(), away[:, None]])
+
+
+def collides(entry, made, move, rest):
+    """Volume that a move shares with the rest on its way, in mm3; and whether it gets out."""
+    body = Manifold.batch_boolean([solid(made, n) for n in move["parts"]], OpType.Add)
+    others = Manifold.batch_boolean([solid(made, n) for n in rest], OpType.Add)
+    way = list(poses(entry, move))
+    worst = max((body.transform(pose) ^ others).volume() for pose in way)
+    apart = (body.hull().transform(way[-1]) ^ others.hull()).volume() <= 0
+    return worst, apart
+
+
+@every
+def test_every_step_is_proved_and_every_part_goes_in_once(frame):
+    entry = told(frame)
+    assert entry["proved"]
+    alone = Counter(
+        m["parts"][0] for s in entry["steps"] for m in s["moves"] if len(m["parts"]) == 1
+    )
+    assert set(alone.values()) == {1}
+    assert set(alone) < set(range(len(entry["parts"])))
+    assert len(list(backwards(entry))) == sum(len(s["moves"]) for s in entry["steps"])
+
+
+@every
+def test_ways_are_free_when_they_are_replayed(frame):
+    entry, made = told(frame), checked(frame)
+    seen = set()
+    for step, move, rest in backwards(entry):
+        what = step["what"], move["way"], len(move["parts"])
+        if what not in seen:
+            seen.add(what)
+            assert collides(entry, made, move, rest) == (0, True), (step["text"], move)
+    assert len(seen) >= len(entry["steps"])
+
+
+def test_hexagons_need_no_loose_peg_and_rows_go_on_as_one():
+    plan = planned(FRAMES[0])
+    pegs = count_pegs(plan.standing)
+    assert (pegs.loose, pegs.least) == (0, 0)
+    *_, row = plan.steps
+    assert row.what == "rows"
+    (move,) = row.moves
+    # The upper half of a hexagon: three joints, the middle one with a peg at the rim.
+    roles = Counter(plan.standing.kit.placements[part].role for part in move.parts)
+    assert roles == {"row": 2, "cap": 2, "half_a": 3, "half_b": 3, "peg": 1}
+    assert move.turn == pytest.approx(90)
+
+
+def test_a_part_from_the_middle_does_not_come_out_before_its_turn():
+    frame = FRAMES[0]
+    entry, made, plan = told(frame), checked(frame), planned(frame)
+    elements = plan.steps[0].moves
+    move = next(m for m in elements if made.placements[m.parts[0]].part == "basic")
+    everything = range(len(made.placements))
+    path = plan.ways[move.way]
+    found = Prover(plan.standing).proved(path, move.parts, everything, move.at, move.turn)
+    assert found.blocking is not None
+    same = next(m for m in entry["steps"][0]["moves"] if m["parts"] == list(move.parts))
+    rest = sorted(set(everything) - set(move.parts))
+    assert collides(entry, made, same, rest)[0] > 1
+
+
+def test_rows_do_not_slide_the_other_way():
+    plan = planned(FRAMES[0])
+    (move,) = plan.steps[-1].moves
+    path, everything = plan.ways[move.way], range(len(plan.standing.kit.placements))
+    found = Prover(plan.standing).proved(path, move.parts, everything, move.at, move.turn + 180)
+    assert found.blocking is not None
+
+
+def test_contacts_of_the_frame_are_those_of_its_parts():
+    made = checked(FRAMES[0])
+    values = {**made.values, "clearance": 0.0, "peg_clearance": 0.0}
+    meshes = []
+    for place in made.placements:
+        points = made.parts[place.part].points(values)
+        points = points * ([1, -1, -1] if place.flip else [1, 1, 1])
+        points = Rotation.from_euler("z", place.turn, degrees=True).apply(points)
+        points = points + values["edge_length"] * np.array([*place.at, 0.0])
+        meshes.append((points, made.parts[place.part].triangles))
+    real, ours = find_contacts(meshes, 1e-4), frame_contacts(stand(made))
+    pairs = [{(min(p), max(p)) for p in zip(c.first, c.second, strict=True)} for c in (real, ours)]
+    assert pairs[0] == pairs[1]
+
+
+@every
+def test_the_finished_frame_holds_unless_pegs_slide(frame):
+    standing = stand(checked(frame))
+    whole = whole_frame(standing)
+    assert whole.held
+    assert whole.moves == "rows"
+    alone = {one.parts[0] for one in whole.loose if len(one.parts) == 1}
+    assert alone == {n for n, p in enumerate(standing.kit.placements) if p.role == "peg"}
+    rows = [one for one in whole.loose if len(one.parts) > 1]
+    assert {tuple(np.round(one.way, 6) + 0.0) for one in rows} == {(0, 1), (0, -1)}
+
+
+@every
+def test_without_a_peg_something_moves(frame):
+    standing = stand(checked(frame))
+    peg = next(n for n, p in enumerate(standing.kit.placements) if p.role == "peg")
+    whole = whole_frame(standing, gone=(peg,))
+    assert not whole.held
+    moving = {standing.kit.placements[n].role for n in whole.loose[-1].parts}
+    assert moving & {"half_a", "half_b"}
+
+
+def test_loose_pegs_are_as_many_as_joints():
+    pegs = count_pegs(stand(checked(FRAMES[2])))
+    assert (pegs.loose, pegs.least, pegs.fixed, pegs.rim) == (4, 4, 0, 0)
+
+
+@pytest.fixture
+def run(capsys):
+    """Run the command in this process; its status, and what it said on stdout and stderr."""
+
+    def call(*words):
+        with pytest.raises(SystemExit) as ended:
+            main(["plan", *map(str, words)])
+        said = capsys.readouterr()
+        return ended.value.code, said.out, said.err
+
+    return call
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A folder with a small kit."""
+    place = tmp_path / "kit"
+    place.mkdir()
+    small = framed(proved_kit("hexagonal"), 1, 1)
+    (place / "kit.json").write_text(kit_text(small), encoding="utf-8")
+    return place
+
+
+def test_the_command_writes_json_text_and_pictures(run, folder, tmp_path, monkeypatch):
+    code, out, err = run(folder)
+    assert (code, err) == (0, "")
+    plan = folder / "plan"
+    assert out.startswith((plan / "plan.txt").read_text(encoding="utf-8"))
+    entry = json.loads((plan / "plan.json").read_text(encoding="utf-8"))
+    schema = resources.files("scadgen.plan").joinpath("plan.schema.json").read_text("utf-8")
+    Draft202012Validator(json.loads(schema)).validate(entry)
+    assert {p.name for p in plan.iterdir()} == {
+        "plan.json",
+        "plan.txt",
+        *(step["picture"] for step in entry["steps"]),
+    }
+    for number, step in enumerate(entry["steps"], 1):
+        assert f"{number:3d}. {step['text']}" in out
+        page = ET.fromstring((plan / step["picture"]).read_text(encoding="utf-8"))  # noqa: S314
+        assert page.tag.endswith("svg")
+    # The same plan as was made before, of the same kit.
+    before = told(FRAMES[0])
+    for step in before["steps"]:
+        step["picture"] = f"plan-{step['step']:02d}.svg"
+    assert entry == before
+    monkeypatch.setattr(order, "make_plan", lambda *_: planned(FRAMES[0]))
+    again = tmp_path / "again"
+    code, said, _ = run(folder, "-o", again, "--json")
+    assert code == 0
+    assert said == (again / "plan.json").read_text(encoding="utf-8")
+    assert json.loads(said) == entry
+
+
+def test_a_step_that_is_not_proved_is_told_with_its_joint(run, folder, monkeypatch):
+    monkeypatch.setattr(search, "escape", lambda *_, **__: Attempts(1, 1, in_time=True))
+    text = (folder / "kit.json").read_text(encoding="utf-8")
+    document = json.loads(text)
+    (way,) = [w for w in document["joints"][0]["ways"] if w["name"].startswith("the peg")]
+    way["steps"] = [[0.0] * 6, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0]]  # up through the halves
+    (folder / "kit.json").write_text(json.dumps(document), encoding="utf-8")
+    code, out, _ = run(folder)
+    assert code == 1
+    assert "NOT ALL PROVED" in out
+    assert "not proved: joint 1: no way is proved past half at" in out
+
+
+def refusals(place):
+    """Wrong requests, and what is said of each."""
+    (place / "broken").mkdir()
+    (place / "broken" / "kit.json").write_text('{"format": "scadgen-kit"', encoding="utf-8")
+    (place / "unchecked").mkdir()
+    (place / "unchecked" / "kit.json").write_text(kit_text(kit("hexagonal")), encoding="utf-8")
+    return {
+        "missing": "no kit can be read there",
+        "broken": "not a sound kit",
+        "unchecked": "make it again without --unchecked",
+    }
+
+
+@pytest.mark.parametrize("name", ["missing", "broken", "unchecked"])
+def test_bad_kits_are_refused_in_one_line(run, tmp_path, name):
+    words = refusals(tmp_path)[name]
+    code, out, err = run(tmp_path / name, "-o", tmp_path / "plan")
+    assert (code, out) == (2, "")
+    assert len(err.splitlines()) == 1
+    assert words in err
+    assert not (tmp_path / "plan").exists()
+
+
+def test_a_folder_with_other_things_is_left_alone(run, folder, tmp_path):
+    other = tmp_path / "other"
+    other.mkdir()
+    (other / "mine.txt").write_text("mine", encoding="utf-8")
+    code, out, err = run(folder, "-o", other)
+    assert (code, out) == (2, "")
+    assert "it holds other things" in err
+    assert [p.name for p in other.iterdir()] == ["mine.txt"]
+    code, _, err = run(folder, "-o", other / "mine.txt")
+    assert code == 2
+    assert "it is a file" in err
+
+
+def test_a_kit_without_a_frame_has_no_plan():
+    single = replace(checked(FRAMES[0]), placements=())
+    with pytest.raises(InputError, match="nothing to plan"):
+        make_plan(single)
