@@ -80,34 +80,20 @@ def connectors_lock(kit: Kit, joint: Joint) -> Result:
 def only_the_peg_moves(kit: Kit, joint: Joint) -> Iterator[Result]:
     """Whether in the assembled joint nothing moves but the pegs, each along its axis.
 
-    The tubes that loose pegs hold are held, as they are by the joints at their other ends; and so
-    is one connector between each key and the next.
+    The tubes that loose pegs hold are held, as they are by the joints at their other ends.
     """
     values = {**kit.values, "clearance": 0.0, "peg_clearance": 0.0}
     meshes = pieces(kit, joint, values)
     turns = {n: np.radians(p.turn) for n, p in enumerate(joint.pieces) if p.role == "peg"}
     axes = {n: np.array([np.cos(turn), np.sin(turn), 0.0]) for n, turn in turns.items()}
-    held = _held(joint)
+    roles = [place.role for place in joint.pieces]
+    held = [roles.index("cap") if "cap" in roles else 0]
     if kit.key == "loose":
         for tube in key_tubes(kit, joint, values).values():
             held.append(len(meshes))
             meshes.append(tube)
     names = [place.part for place in joint.pieces]
     yield from only_these_move(meshes, _contacts(kit, meshes), held, axes, names)
-
-
-def _held(joint: Joint) -> list[int]:
-    """The first connector after each key that is not another key, by its number.
-
-    Between two keys connectors lock each other, but what is on one side of both can slide along
-    the pegs away from what is on the other, as far as its tubes' other ends let it.
-    """
-    caps = [n for n, place in enumerate(joint.pieces) if place.role == "cap"]
-    edges = [edge for edge in range(len(joint.turns)) if edge not in joint.keys]
-    first: dict[int, int] = {}
-    for cap, edge in zip(caps, edges, strict=True):
-        first.setdefault(max(key for key in joint.keys if key < edge), cap)
-    return list(first.values()) or [0]
 
 
 def only_these_move(

@@ -30,8 +30,8 @@ _SHARES = (0.5, 0.9)
 #: Opening below which nothing opens, in sides a side.
 _SHUT = 1e-6
 
-#: How far a piece goes up or down, in sides, and how far it turns on that way.
-_UP, _TURNS = 1.6, 0.8
+#: How far a piece goes up or down, in sides, and how far of that it goes aside and turns.
+_UP, _ASIDE = 1.6, 0.8
 
 #: Poses of a way.
 _POSES = 9
@@ -77,8 +77,9 @@ class Openings:
             twist = _least(points - middle, leaving, up, share)
             if twist is not None:
                 gone = np.linspace(0, _UP, _POSES)[:, None]
-                turned = np.minimum(gone, _TURNS) * twist[3:]
-                yield Path.through(np.hstack([gone * twist[:3], turned]), middle)
+                steps = np.minimum(gone, _ASIDE) * twist
+                steps[:, 2:3] = gone * twist[2]
+                yield Path.through(steps, middle)
 
     def _touches(self, piece: int, present: Collection[int]) -> _Touch:
         """Where a piece touches others, and along what it leaves them."""
