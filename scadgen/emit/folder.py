@@ -24,7 +24,10 @@ __all__ = ["check_folder", "files_of", "update_bill", "write_kit"]
 
 #: What a new kit makes stale: what the kit's Makefile and `scadgen render` write, and what not
 #: every kit has.
-_STALE = {"stl", "3mf", "png", "plates", ".build", "assembly.png", "placing.svg", "plan"}
+_STALE = {"stl", "3mf", "png", "plates", ".build", "assembly.png", "placing.svg"}
+
+#: The files of a plan of the kit, which is stale as well.
+_PLAN = ("plan.json", "plan.txt", "plan-*.svg")
 
 
 def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
@@ -161,7 +164,9 @@ def _swap(stage: Path, target: Path, old: Path) -> None:
         stage.rename(target)
         return
     ours = {entry.name for entry in stage.iterdir()} | _STALE
-    kept = [entry.name for entry in target.iterdir() if entry.name not in ours]
+    kept = [
+        entry.name for entry in target.iterdir() if entry.name not in ours and not _is_plan(entry)
+    ]
     for name in kept:
         source = target / name
         if source.is_dir() and not source.is_symlink():
@@ -174,3 +179,10 @@ def _swap(stage: Path, target: Path, old: Path) -> None:
     except BaseException:  # an interrupt as well: the old kit comes back
         old.rename(target)
         raise
+
+
+def _is_plan(entry: Path) -> bool:
+    """Whether a folder holds a plan, and nothing else."""
+    if entry.name != "plan" or entry.is_symlink() or not entry.is_dir():
+        return False
+    return all(any(file.match(pattern) for pattern in _PLAN) for file in entry.iterdir())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import shutil
 import tempfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 from scadgen.errors import InputError
@@ -27,6 +27,11 @@ def check_plan_folder(folder: Path) -> Path:
     """
     try:
         target = Path(os.path.realpath(folder))
+        if target == Path.cwd().resolve():
+            msg = (
+                f"cannot write the plan to {str(folder)!r}: it is the current folder; name another"
+            )
+            raise InputError(msg)
         if target.exists() and not target.is_dir():
             msg = f"cannot write the plan to {str(folder)!r}: it is a file; name a folder"
             raise InputError(msg)
@@ -56,9 +61,7 @@ def _refusal(folder: Path, error: OSError) -> InputError:
     )
 
 
-def write_plan(
-    files: Mapping[str, str], folder: Path, say: Callable[[str], None] = lambda _: None
-) -> None:
+def write_plan(files: Mapping[str, str], folder: Path) -> None:
     """Write a plan's files; those of a plan that is there are replaced, others are kept.
 
     Parameters
@@ -67,8 +70,6 @@ def write_plan(
         Their texts by name.
     folder
         Where to.
-    say
-        Told the name of each file.
 
     Raises
     ------
@@ -83,7 +84,6 @@ def write_plan(
             stage = Path(name) / "plan"
             stage.mkdir()
             for file, text in files.items():
-                say(file)
                 (stage / file).write_text(text, encoding="utf-8")
             _swap(stage, target, Path(name) / "old")
     except OSError as error:

@@ -83,17 +83,20 @@ class Plan:
         The ways out, in mm, each with its joint at the origin.
     proofs
         How many different pairs of parts were looked at, one moving past the other.
+    left
+        Parts that hang together, and of which no way apart is known.
     """
 
     standing: Standing
     steps: tuple[Step, ...]
     ways: tuple[Path, ...]
     proofs: int
+    left: tuple[int, ...] = ()
 
     @property
     def proved(self) -> bool:
-        """Whether every step is proved."""
-        return all(step.proved for step in self.steps)
+        """Whether every step is proved, and they take all parts apart."""
+        return not self.left and all(step.proved for step in self.steps)
 
     def moves(self) -> Iterator[Move]:
         """All moves in order."""

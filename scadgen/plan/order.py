@@ -86,7 +86,9 @@ class _Planner:
         self._pieces("halves", ("half_a", "half_b"))
         self._connectors()
         steps = tuple(map(_backwards, reversed(self._steps)))
-        return Plan(self._standing, steps, tuple(self._prover.ways), len(self._prover.known))
+        left = sorted(set().union(*(table for table in self._tables if len(table) > 1)))
+        ways, known = tuple(self._prover.ways), len(self._prover.known)
+        return Plan(self._standing, steps, ways, known, tuple(left))
 
     def _rows(self) -> None:
         """Take rows apart that parallel pegs hold."""
@@ -150,12 +152,15 @@ class _Planner:
         left: list[Choice] = []
         for table in self._tables:
             if len(table) > 1:
-                trees = Trees(self._standing, table)
+                trees, gone = Trees(self._standing, table), list[Move]()
                 for group in trees.groups:
                     choices = [c for c in trees.choices(group) if c.parts < table]
                     found = self._chosen(choices)
-                    wave += found
+                    gone += found
                     left += [] if found else choices
+                if sum(len(move.parts) for move in gone) == len(table):
+                    gone.pop()  # the last stays: the others go in beside it
+                wave += gone
         if wave or not left:
             return wave
         left.sort(key=lambda choice: len(choice.parts))

@@ -152,6 +152,8 @@ def plan_text(plan: Plan, whole: Whole) -> str:
             for move in step.moves
             if not move.proved
         ]
+    if plan.left:
+        lines.append(f"     not proved: no way is known to join {_bill(plan, plan.left)}")
     lines.append(f"finished: {finished(plan, whole)}")
     return "\n".join(lines) + "\n"
 
@@ -169,14 +171,15 @@ def finished(plan: Plan, whole: Whole) -> str:
     sets = [one.parts for one in whole.loose if len(one.parts) > 1]
     pegs = sum(len(one.parts) == 1 for one in whole.loose)
     if not whole.held:
-        return f"NOT HELD: {_bill(plan, sorted(set().union(*sets)))} can move"
+        moving = whole.loose[-1].parts
+        return f"NOT HELD: {_bill(plan, moving) or 'no proof is found that nothing'} can move"
     proof = f"proved by {whole.forces} contacts in balance"
     fit = "only the fit of the pegs holds in what went in last"
     able = [f"{_count(pegs, 'peg')} along {'its edge' if pegs == 1 else 'their edges'}"] * (
         pegs > 0
     )
     if whole.moves == "pegs":
-        return f"nothing moves but {able[0]}, {proof}; {fit}"
+        return f"nothing moves but {able[0] if able else 'the pegs'}, {proof}; {fit}"
     able += [f"{len(parts)} parts as one off their pegs" for parts in sets]
     return f"nothing moves unless a peg slides, {proof}; what can: {', '.join(able)}; {fit}"
 

@@ -29,7 +29,7 @@ from scadgen.interlock.assembly import extreme_rows, make_assembly
 from scadgen.interlock.certificate import BALANCED, check_certificate
 from scadgen.interlock.contacts import Contacts, Mesh, find_contacts
 from scadgen.interlock.forces import balanced, equilibrium, unfelt
-from scadgen.interlock.verdict import Certificate, Motion, contacts_by_part, verdict
+from scadgen.interlock.verdict import Certificate, contacts_by_part, verdict
 from scadgen.kit.model import Joint
 from scadgen.plan.slides import sliding
 from scadgen.plan.standing import Standing
@@ -125,7 +125,12 @@ def whole_frame(standing: Standing, gone: Collection[int] = ()) -> Whole:
     if forces := _locked(boxes, stopped, held):
         return Whole(parts, count, loose, forces, "rows")
     found = verdict(make_assembly(boxes, stopped, held))
-    moving = found.parts if isinstance(found, Motion) else ()
+    if isinstance(found, Certificate):
+        if check_certificate(stopped, held, len(boxes), found) < BALANCED:
+            return Whole(parts, count, loose, len(found.rows), "rows")
+        moving: tuple[int, ...] = ()
+    else:
+        moving = found.parts
     return Whole(parts, count, (*loose, Loose(moving, (0.0, 0.0))), 0, "more")
 
 
