@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from scadgen.cli.console import progress
+from scadgen.cli.console import Bar, progress
 from scadgen.cli.frame_source import load_frame, source_options
 from scadgen.errors import InputError
 
@@ -30,6 +30,9 @@ _COMPUTED, _PROVED = 0.2, 0.9
 
 #: About as many proofs as a joint has, and files as a kit.
 _PROOFS, _FILES = 12, 9
+
+#: What has no say in what is made.
+_NOT_MADE = ("frame", "output", "jobs", "no_cache", "as_json")
 
 #: The live parameters: option, what it sets, the words about its default.
 _LENGTHS = (
@@ -106,12 +109,21 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
 @click.option(
     "--unchecked", is_flag=True, help="Make the kit even if its joints are not proved to lock."
 )
+@click.option("--jobs", type=int, metavar="N", help="Processes.  [default: one a core]")
+@click.option(
+    "--no-cache",
+    is_flag=True,
+    help="Neither use nor keep the joints and proofs of other kits in SCADGEN_CACHE, by default "
+    "~/.cache/scadgen.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Say what was made as JSON.")
 def kit(
     frame: str,
     output: Path | None,
     material: str,
     unchecked: bool,  # noqa: FBT001  click passes flags so
+    jobs: int | None,
+    no_cache: bool,  # noqa: FBT001
     as_json: bool,  # noqa: FBT001
     **options: Any,  # noqa: ANN401  of the kit, its live parameters, and the frame
 ) -> None:
@@ -136,19 +148,23 @@ def kit(
     from scadgen.kit.bill import check_material
     from scadgen.kit.build import build
     from scadgen.kit.store import summary
+    from scadgen.work.cache import Cache, default_folder
+    from scadgen.work.crew import Crew
+    from scadgen.work.each import Means
 
     material = check_material(material)
+    means = Means(Crew(jobs), None if no_cache else Cache(default_folder()))
     request, notes = _request(frame, options)
     folder = output or Path(request.frame)
     check_folder(folder)
     with progress(f"making {folder}") as bar:
         bar.reach(0.0, "computing the joints")
-        made = replace(build(request), material=material)
-        done = _COMPUTED
+        made = build(request, means, lambda n, all_: _computed(bar, n, all_))
+        made, done = replace(made, material=material), _COMPUTED
         if not unchecked:
-            about = _PROOFS * len(made.joints)
+            about = len(made.joints) if len(made.joints) > 1 else _PROOFS
             step, done = bar.steps(_COMPUTED, _PROVED, about), _PROVED
-            made = proved(made, lambda what: step(f"proving {what}"))
+            made = proved(made, means, lambda what: step(f"proving {what}"))
         write = bar.steps(done, 1.0, _FILES)
         write_kit(made, folder, progress=lambda file: write(f"writing {file}"))
     if as_json:
@@ -156,6 +172,11 @@ def kit(
         click.echo(json.dumps(said, indent=1))
     else:
         _say(made, folder, notes)
+
+
+def _computed(bar: Bar, count: int, of: int) -> None:
+    """Show how many joints are computed."""
+    bar.reach(_COMPUTED * count / of, f"computing the joints, {count} of {of}")
 
 
 def _say(made: Kit, folder: Path, notes: Sequence[str]) -> None:
@@ -242,7 +263,7 @@ def _command() -> str:
     for parameter in context.command.params:
         name = parameter.name or ""
         given = context.get_parameter_source(name) != click.core.ParameterSource.DEFAULT
-        if given and name not in ("frame", "output", "as_json"):
+        if given and name not in _NOT_MADE:
             value = context.params[name]
             words.append(parameter.opts[-1])
             if value is not True:  # a flag is its option alone
