@@ -19,6 +19,7 @@ from scadgen.errors import InputError
 if TYPE_CHECKING:
     from scadgen.kit.build import Request
     from scadgen.kit.model import Kit
+    from scadgen.work.each import Means
 
 __all__ = ["kit"]
 
@@ -32,7 +33,7 @@ _COMPUTED, _PROVED = 0.2, 0.9
 _PROOFS, _FILES = 12, 9
 
 #: What has no say in what is made.
-_NOT_MADE = ("frame", "output", "jobs", "no_cache", "as_json")
+_NOT_MADE = ("frame", "output", "jobs", "dask", "no_cache", "as_json")
 
 #: The live parameters: option, what it sets, the words about its default.
 _LENGTHS = (
@@ -111,6 +112,11 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
 )
 @click.option("--jobs", type=int, metavar="N", help="Processes.  [default: one a core]")
 @click.option(
+    "--dask",
+    metavar="ADDRESS",
+    help="Compute on a Dask cluster: its scheduler, as tcp://HOST:PORT.",
+)
+@click.option(
     "--no-cache",
     is_flag=True,
     help="Neither use nor keep the joints and proofs of other kits in SCADGEN_CACHE, by default "
@@ -123,6 +129,7 @@ def kit(
     material: str,
     unchecked: bool,  # noqa: FBT001  click passes flags so
     jobs: int | None,
+    dask: str | None,
     no_cache: bool,  # noqa: FBT001
     as_json: bool,  # noqa: FBT001
     **options: Any,  # noqa: ANN401  of the kit, its live parameters, and the frame
@@ -143,30 +150,25 @@ def kit(
     scadgen kit 4.8.8 --detail draft -o octagons
     scadgen kit drawing.svg --side 6
     """  # noqa: D301  click wants the character
-    from scadgen.check.proof import proved
     from scadgen.emit.folder import check_folder, write_kit
     from scadgen.kit.bill import check_material
-    from scadgen.kit.build import build
     from scadgen.kit.store import summary
     from scadgen.work.cache import Cache, default_folder
-    from scadgen.work.crew import Crew
+    from scadgen.work.crew import hired
     from scadgen.work.each import Means
 
     material = check_material(material)
-    means = Means(Crew(jobs), None if no_cache else Cache(default_folder()))
     request, notes = _request(frame, options)
     folder = output or Path(request.frame)
     check_folder(folder)
-    with progress(f"making {folder}") as bar:
-        bar.reach(0.0, "computing the joints")
-        made = build(request, means, lambda n, all_: _computed(bar, n, all_))
-        made, done = replace(made, material=material), _COMPUTED
-        if not unchecked:
-            about = len(made.joints) if len(made.joints) > 1 else _PROOFS
-            step, done = bar.steps(_COMPUTED, _PROVED, about), _PROVED
-            made = proved(made, means, lambda what: step(f"proving {what}"))
+    told: list[str] = []
+    with hired(jobs, dask, told.append) as crew, progress(f"making {folder}") as bar:
+        means = Means(crew, None if no_cache else Cache(default_folder()))
+        made, done = _made(request, means, bar, unchecked=unchecked)
         write = bar.steps(done, 1.0, _FILES)
+        made = replace(made, material=material)
         write_kit(made, folder, progress=lambda file: write(f"writing {file}"))
+    notes = (*notes, *told)
     if as_json:
         said = {"folder": str(folder), "notes": notes, **summary(made)}
         click.echo(json.dumps(said, indent=1))
@@ -174,9 +176,21 @@ def kit(
         _say(made, folder, notes)
 
 
-def _computed(bar: Bar, count: int, of: int) -> None:
-    """Show how many joints are computed."""
-    bar.reach(_COMPUTED * count / of, f"computing the joints, {count} of {of}")
+def _made(request: Request, means: Means, bar: Bar, *, unchecked: bool) -> tuple[Kit, float]:
+    """The kit, proved unless that is not wanted, and the share of the time that is gone."""
+    from scadgen.check.proof import proved
+    from scadgen.kit.build import build
+
+    def computed(count: int, of: int) -> None:
+        bar.reach(_COMPUTED * count / of, f"computing the joints, {count} of {of}")
+
+    bar.reach(0.0, "computing the joints")
+    made = build(request, means, computed)
+    if unchecked:
+        return made, _COMPUTED
+    about = len(made.joints) if len(made.joints) > 1 else _PROOFS
+    step = bar.steps(_COMPUTED, _PROVED, about)
+    return proved(made, means, lambda what: step(f"proving {what}")), _PROVED
 
 
 def _say(made: Kit, folder: Path, notes: Sequence[str]) -> None:

@@ -1,4 +1,4 @@
-"""Who works: this process alone, or processes on several cores."""
+"""Who works: this process alone, processes on several cores, or a Dask cluster."""
 
 from __future__ import annotations
 
@@ -6,46 +6,52 @@ import signal
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import closing, contextmanager
-from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from scadgen.errors import InputError, ScadgenError, ToolError
+from scadgen.errors import InputError, ToolError
+from scadgen.work.attempt import Outcome, attempt
 
-__all__ = ["ALONE", "Crew"]
+if TYPE_CHECKING:
+    from distributed import Client
+
+__all__ = ["ALONE", "Crew", "hired"]
 
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")
 
-#: An item's number, and its result or why there is none.
-_Outcome = tuple[int, _Result | ScadgenError]
 
-
-@dataclass(frozen=True, slots=True)
 class Crew:
     """Who works.
 
     Parameters
     ----------
     jobs
-        Processes that work at once; None for one a core.
+        Processes that work at once on this machine; None for one a core.
+    client
+        A Dask cluster that works instead, while it is there.
+    note
+        Told in a line when the cluster is lost and this machine goes on.
 
     Raises
     ------
     InputError
-        Fewer than one.
+        Fewer than one process.
     """
 
-    jobs: int | None = None
-
-    def __post_init__(self) -> None:
-        """Refuse what is no number of processes."""
-        if self.jobs is not None and self.jobs < 1:
-            msg = f"jobs = {self.jobs}: must be at least 1"
+    def __init__(
+        self,
+        jobs: int | None = None,
+        client: Client | None = None,
+        note: Callable[[str], None] = lambda _: None,
+    ) -> None:
+        if jobs is not None and jobs < 1:
+            msg = f"jobs = {jobs}: must be at least 1"
             raise InputError(msg)
+        self._jobs, self._client, self._note = jobs, client, note
 
     def outcomes(
         self, function: Callable[[_Item], _Result], items: Sequence[_Item]
-    ) -> Generator[_Outcome[_Result], None, None]:
+    ) -> Generator[Outcome[_Result], None, None]:
         """Apply a function to items.
 
         Parameters
@@ -65,11 +71,36 @@ class Crew:
         ToolError
             A process was ended from outside.
         """
+        left = list(range(len(items)))
+        if self._client and len(items) > 1:
+            for outcome in self._of_cluster(self._client, function, items):
+                left.remove(outcome[0])
+                yield outcome
+        for place, result in self._of_machine(function, [items[number] for number in left]):
+            yield left[place], result
+
+    def _of_cluster(
+        self, client: Client, function: Callable[[_Item], _Result], items: Sequence[_Item]
+    ) -> Generator[Outcome[_Result], None, None]:
+        """Outcomes of the cluster, as long as it is there."""
+        from scadgen.work.cluster import ClusterLostError, outcomes
+
+        try:
+            yield from outcomes(client, function, items)
+        except ClusterLostError as error:
+            self._client = None
+            self._note(f"{error}; this machine went on alone")
+
+    def _of_machine(
+        self, function: Callable[[_Item], _Result], items: Sequence[_Item]
+    ) -> Generator[Outcome[_Result], None, None]:
+        """Outcomes of this process, or of others on this machine where there are enough items."""
         from joblib import cpu_count
 
-        jobs = min(self.jobs or cpu_count(), len(items))
+        jobs = min(self._jobs or cpu_count(), len(items))
         if jobs <= 1:
-            yield from map(_attempt, [function] * len(items), range(len(items)), items)
+            for number, item in enumerate(items):
+                yield attempt(function, number, item)
             return
         try:
             yield from _in_processes(function, items, jobs)
@@ -82,24 +113,42 @@ class Crew:
 ALONE = Crew(1)
 
 
-def _attempt(function: Callable[[_Item], _Result], number: int, item: _Item) -> _Outcome[_Result]:
-    """The outcome of one item."""
-    try:
-        return number, function(item)
-    except ScadgenError as error:
-        return number, error
+@contextmanager
+def hired(jobs: int | None, address: str | None, note: Callable[[str], None]) -> Iterator[Crew]:
+    """A crew for as long as it is needed.
+
+    Parameters
+    ----------
+    jobs, note
+        As for `Crew`.
+    address
+        Of a Dask scheduler; None for this machine.
+
+    Raises
+    ------
+    InputError
+        Fewer than one process, or no cluster that can work at the address.
+    """
+    crew = Crew(jobs)
+    if address is None:
+        yield crew
+        return
+    from scadgen.work.cluster import cluster
+
+    with cluster(address) as client:
+        yield Crew(jobs, client, note)
 
 
 def _in_processes(
     function: Callable[[_Item], _Result], items: Sequence[_Item], jobs: int
-) -> Generator[_Outcome[_Result], None, None]:
+) -> Generator[Outcome[_Result], None, None]:
     """Outcomes of processes on this machine, as they come."""
     from joblib import Parallel, delayed, parallel_config
 
     # The matrices are small: threads of their own would only be in each other's way.
     with parallel_config("loky", n_jobs=jobs, inner_max_num_threads=1):
         pool = Parallel(return_as="generator_unordered")
-    work = (delayed(_attempt)(function, number, item) for number, item in enumerate(items))
+    work = (delayed(attempt)(function, number, item) for number, item in enumerate(items))
     with _uninterrupted():
         found: Any = pool(work)
     with closing(found):
