@@ -139,7 +139,8 @@ def outcomes(
                 except queue.Empty:
                     seen = _look(client, seen)
             if isinstance(outcome, BaseException):
-                msg = f"{type(outcome).__name__}: {outcome}".splitlines()[0]
+                _look(client, seen)
+                msg = f"the Dask cluster failed: {outcome!r}".splitlines()[0]
                 raise ClusterLostError(msg) from outcome
             seen = time.monotonic()
             yield outcome
@@ -155,16 +156,24 @@ def _look(client: Client, seen: float) -> float:
     ClusterLostError
         It is gone, or has had none for long.
     """
-    if client.status != "running":
+    try:
+        workers = client.sync(_workers, client, callback_timeout=_PATIENCE)
+    except Exception as error:  # whatever a connection that is cut raises
         msg = "the Dask scheduler is gone"
-        raise ClusterLostError(msg)
-    workers = client.sync(client.scheduler.identity, callback_timeout=_PATIENCE)["workers"]
+        raise ClusterLostError(msg) from error
     if workers:
         return time.monotonic()
     if time.monotonic() - seen > _IDLE:
         msg = "the Dask cluster has no workers any more"
         raise ClusterLostError(msg)
     return seen
+
+
+async def _workers(client: Client) -> int:
+    """How many workers a scheduler has now."""
+    if client.status != "running":
+        raise ConnectionError
+    return len((await client.scheduler.identity())["workers"])
 
 
 def _gather(
