@@ -1,12 +1,16 @@
 """Settings that every test shares."""
 
 import os
+from pathlib import Path
 
-import shared  # noqa: F401  before the workers start, who use its folder
+import shared  # before the workers start, who use its folder
 from hypothesis import settings
 
 # Matrices here are small, and several workers share the machine.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+# What is kept for users is not for tests to use, nor to fill.
+os.environ["SCADGEN_CACHE"] = str(Path(os.environ[shared.PLACE]) / "cache")
 
 # The same examples every time, no time limit on a busy machine, no file in the tree.
 settings.register_profile("scadgen", derandomize=True, deadline=None, database=None)

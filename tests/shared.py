@@ -9,14 +9,14 @@ import tempfile
 from pathlib import Path
 from types import MappingProxyType
 
-__all__ = ["once"]
+__all__ = ["PLACE", "once"]
 
-_PLACE = "SCADGEN_TESTS_PLACE"
+PLACE = "SCADGEN_TESTS_PLACE"
 
 # Who imports this first starts the workers, or is alone; the folder goes when it ends.
-if _PLACE not in os.environ:
+if PLACE not in os.environ:
     _folder = tempfile.TemporaryDirectory(prefix="pytest-scadgen-")
-    os.environ[_PLACE] = _folder.name
+    os.environ[PLACE] = _folder.name
 
 
 def _read_only(mapping):
@@ -31,7 +31,7 @@ _kept = {}
 def once(name, make):
     """What `make` gives; it is given a folder of its own that stays as long as the tests run."""
     if name not in _kept:
-        place = Path(os.environ[_PLACE]) / name
+        place = Path(os.environ[PLACE]) / name
         with place.with_name(f"{name}.lock").open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             result = place.with_name(f"{name}.pickle")

@@ -39,8 +39,8 @@ def assert_one_line(error, *words):
         ({"frame": "triangular"}, ("frame = 'triangular'", "hexagonal, square")),
         ({"key": "glued"}, ("key = 'glued'", "fixed, loose")),
         ({"detail": "ultra"}, ("detail = 'ultra'", "draft, standard, fine")),
-        ({"rows": 0}, ("rows = 0", "1 to 50")),
-        ({"columns": 51}, ("columns = 51", "1 to 50")),
+        ({"rows": 0}, ("rows = 0", "1 to 100")),
+        ({"columns": 101}, ("columns = 101", "1 to 100")),
         ({"values": {"gear": 1.0}}, ("gear", "side, edge_length")),
     ],
 )

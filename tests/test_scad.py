@@ -179,8 +179,8 @@ def test_what_is_not_a_number_is_refused(hexagonal, tmp_path):
 @pytest.mark.parametrize(
     ("definition", "message"),
     [
-        ("rows=0", "rows = 0: must be a whole number from 1 to 50"),
-        ("columns=51", "columns = 51: must be a whole number from 1 to 50"),
+        ("rows=0", "rows = 0: must be a whole number from 1 to 100"),
+        ("columns=101", "columns = 101: must be a whole number from 1 to 100"),
         ("rows=1.5", "rows = 1.5: must be a whole number"),
         ("bed=[220]", "bed = [220]: must be two lengths above 0 mm"),
         ("bed=[220,0/0]", "bed = [220, nan]: must be two lengths above 0 mm"),

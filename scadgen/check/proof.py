@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 
 from scadgen.check.known import known_ways
 from scadgen.check.locking import joint_locks
@@ -11,8 +12,14 @@ from scadgen.check.result import Result
 from scadgen.check.ways import come_apart
 from scadgen.errors import GeometryError
 from scadgen.kit.model import Joint, Kit, Way
+from scadgen.kit.store import read_way, way_entry
+from scadgen.solid.affine import AffineSolid
+from scadgen.work.cache import Entry
+from scadgen.work.crew import ALONE
+from scadgen.work.each import Means, Task, each
+from scadgen.work.fingerprint import key_of
 
-__all__ = ["Proof", "proofs", "proved"]
+__all__ = ["Claim", "Proof", "proofs", "prove", "proved"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +28,22 @@ class Proof:
 
     result: Result
     way: Way | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Claim:
+    """That a joint locks and comes apart.
+
+    Parameters
+    ----------
+    kit
+        A kit that has what the proof needs: the joint's parts, and the live parameters.
+    joint
+        The joint.
+    """
+
+    kit: Kit
+    joint: Joint
 
 
 def proofs(kit: Kit, joint: Joint, say: Callable[[str], None] = lambda _: None) -> Iterator[Proof]:
@@ -42,29 +65,57 @@ def proofs(kit: Kit, joint: Joint, say: Callable[[str], None] = lambda _: None) 
         yield Proof(result, way)
 
 
-def proved(kit: Kit, say: Callable[[str], None] = lambda _: None) -> Kit:
+def proved(
+    kit: Kit, means: Means | None = None, say: Callable[[str], None] = lambda _: None
+) -> Kit:
     """The kit with all that is proved of its joints.
 
     Parameters
     ----------
     kit
         The kit.
+    means
+        Who proves it, and where proofs are kept; by default this process alone, and nowhere.
+    say
+        Told what is proved: of a lone joint each step, of several each joint.
+
+    Raises
+    ------
+    GeometryError
+        One does not lock, or no way is found on which it comes apart: the first of them.
+    """
+    claims = [Claim(_alone(kit, joint), joint) for joint in kit.joints]
+    means, task = means or Means(), _TASK
+    if len(claims) == 1:
+        # A lone item is done by this process, to which each step can be told.
+        means, task = replace(means, crew=ALONE), replace(task, function=partial(prove, say=say))
+    done: dict[int, Joint] = {}
+    for number, joint in each(task, claims, means):
+        done[number] = joint
+        if len(claims) > 1:
+            say(f"{joint.title}, {len(done)} of {len(claims)}")
+    return replace(kit, joints=tuple(done[number] for number in range(len(claims))))
+
+
+def prove(claim: Claim, say: Callable[[str], None] = lambda _: None) -> Joint:
+    """The joint with all that is proved of it.
+
+    Parameters
+    ----------
+    claim
+        What is to be proved.
     say
         Told what is being proved.
 
     Raises
     ------
     GeometryError
-        One does not lock, or no way is found on which it comes apart.
+        It does not lock, or no way is found on which it comes apart.
     """
-    return replace(kit, joints=tuple(_proved(kit, joint, say) for joint in kit.joints))
-
-
-def _proved(kit: Kit, joint: Joint, say: Callable[[str], None]) -> Joint:
-    """A joint with all that is proved of it."""
+    joint = claim.joint
     verdicts, ways = {}, []
     of = f"{joint.title}: " if joint.name else ""
-    for proof in proofs(kit, joint, lambda what: say(of + what)):
+    for proof in proofs(claim.kit, joint, lambda what: say(of + what)):
         result = proof.result
         if not result.good:
             msg = (
@@ -78,3 +129,55 @@ def _proved(kit: Kit, joint: Joint, say: Callable[[str], None]) -> Joint:
         if proof.way:
             ways.append(proof.way)
     return replace(joint, verdicts=verdicts, ways=tuple(ways))
+
+
+def _alone(kit: Kit, joint: Joint) -> Kit:
+    """A kit of one joint: what is proved of it depends on nothing else."""
+    used = dict.fromkeys((*(place.part for place in joint.pieces), *joint.connectors))
+    parts = {name: kit.parts[name] for name in used}
+    return replace(
+        kit, parts=parts, joints=(joint,), placements=(), graph=None, slicing=None, ranges=()
+    )
+
+
+def _key(claim: Claim) -> str:
+    """The key of a proof: parts and joints may have any name."""
+    kit, joint = claim.kit, claim.joint
+    number = {name: n for n, name in enumerate(kit.parts)}
+    return key_of(
+        "proof",
+        style=kit.key,
+        detail=kit.detail,
+        values=dict(kit.values),
+        parts=[_tables(solid) for solid in kit.parts.values()],
+        turns=joint.turns,
+        keys=joint.keys,
+        caps=joint.caps,
+        connectors=[number[name] for name in joint.connectors],
+        weave=dict(joint.weave),
+        pieces=[[number[p.part], p.at, p.turn, p.flip, p.role] for p in joint.pieces],
+        figures=dict(joint.figures),
+        ways=[way_entry(way) for way in joint.ways],
+    )
+
+
+def _tables(solid: AffineSolid) -> Mapping[str, object]:
+    """All that a solid is."""
+    return {
+        "points": dict(solid.coefficients),
+        "triangles": solid.triangles,
+        "facets": solid.facets,
+    }
+
+
+def _packed(joint: Joint) -> Entry:
+    verdicts = list(joint.verdicts.items())
+    return Entry({"verdicts": verdicts, "ways": [way_entry(way) for way in joint.ways]})
+
+
+def _unpacked(entry: Entry, claim: Claim) -> Joint:
+    ways = tuple(read_way(way) for way in entry.values["ways"])
+    return replace(claim.joint, verdicts=dict(entry.values["verdicts"]), ways=ways)
+
+
+_TASK = Task(prove, _key, _packed, _unpacked)

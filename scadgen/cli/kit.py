@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from scadgen.cli.console import progress
+from scadgen.cli.console import Bar, progress
 from scadgen.cli.frame_source import load_frame, source_options
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
     from scadgen.kit.build import Request
     from scadgen.kit.model import Kit
+    from scadgen.work.each import Means
 
 __all__ = ["kit"]
 
@@ -30,6 +31,9 @@ _COMPUTED, _PROVED = 0.2, 0.9
 
 #: About as many proofs as a joint has, and files as a kit.
 _PROOFS, _FILES = 12, 9
+
+#: What has no say in what is made.
+_NOT_MADE = ("frame", "output", "jobs", "dask", "no_cache", "as_json")
 
 #: The live parameters: option, what it sets, the words about its default.
 _LENGTHS = (
@@ -106,12 +110,27 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
 @click.option(
     "--unchecked", is_flag=True, help="Make the kit even if its joints are not proved to lock."
 )
+@click.option("--jobs", type=int, metavar="N", help="Processes.  [default: one a core]")
+@click.option(
+    "--dask",
+    metavar="ADDRESS",
+    help="Compute on a Dask cluster: its scheduler, as tcp://HOST:PORT.",
+)
+@click.option(
+    "--no-cache",
+    is_flag=True,
+    help="Neither use nor keep the joints and proofs of other kits in SCADGEN_CACHE, by default "
+    "~/.cache/scadgen.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Say what was made as JSON.")
 def kit(
     frame: str,
     output: Path | None,
     material: str,
     unchecked: bool,  # noqa: FBT001  click passes flags so
+    jobs: int | None,
+    dask: str | None,
+    no_cache: bool,  # noqa: FBT001
     as_json: bool,  # noqa: FBT001
     **options: Any,  # noqa: ANN401  of the kit, its live parameters, and the frame
 ) -> None:
@@ -131,31 +150,47 @@ def kit(
     scadgen kit 4.8.8 --detail draft -o octagons
     scadgen kit drawing.svg --side 6
     """  # noqa: D301  click wants the character
-    from scadgen.check.proof import proved
     from scadgen.emit.folder import check_folder, write_kit
     from scadgen.kit.bill import check_material
-    from scadgen.kit.build import build
     from scadgen.kit.store import summary
+    from scadgen.work.cache import Cache, default_folder
+    from scadgen.work.crew import hired
+    from scadgen.work.each import Means
 
     material = check_material(material)
     request, notes = _request(frame, options)
     folder = output or Path(request.frame)
     check_folder(folder)
-    with progress(f"making {folder}") as bar:
-        bar.reach(0.0, "computing the joints")
-        made = replace(build(request), material=material)
-        done = _COMPUTED
-        if not unchecked:
-            about = _PROOFS * len(made.joints)
-            step, done = bar.steps(_COMPUTED, _PROVED, about), _PROVED
-            made = proved(made, lambda what: step(f"proving {what}"))
+    told: list[str] = []
+    with hired(jobs, dask, told.append) as crew, progress(f"making {folder}") as bar:
+        means = Means(crew, None if no_cache else Cache(default_folder()))
+        made, done = _made(request, means, bar, unchecked=unchecked)
         write = bar.steps(done, 1.0, _FILES)
+        made = replace(made, material=material)
         write_kit(made, folder, progress=lambda file: write(f"writing {file}"))
+    notes = (*notes, *told)
     if as_json:
         said = {"folder": str(folder), "notes": notes, **summary(made)}
         click.echo(json.dumps(said, indent=1))
     else:
         _say(made, folder, notes)
+
+
+def _made(request: Request, means: Means, bar: Bar, *, unchecked: bool) -> tuple[Kit, float]:
+    """The kit, proved unless that is not wanted, and the share of the time that is gone."""
+    from scadgen.check.proof import proved
+    from scadgen.kit.build import build
+
+    def computed(count: int, of: int) -> None:
+        bar.reach(_COMPUTED * count / of, f"computing the joints, {count} of {of}")
+
+    bar.reach(0.0, "computing the joints")
+    made = build(request, means, computed)
+    if unchecked:
+        return made, _COMPUTED
+    about = len(made.joints) if len(made.joints) > 1 else _PROOFS
+    step = bar.steps(_COMPUTED, _PROVED, about)
+    return proved(made, means, lambda what: step(f"proving {what}")), _PROVED
 
 
 def _say(made: Kit, folder: Path, notes: Sequence[str]) -> None:
@@ -242,7 +277,7 @@ def _command() -> str:
     for parameter in context.command.params:
         name = parameter.name or ""
         given = context.get_parameter_source(name) != click.core.ParameterSource.DEFAULT
-        if given and name not in ("frame", "output", "as_json"):
+        if given and name not in _NOT_MADE:
             value = context.params[name]
             words.append(parameter.opts[-1])
             if value is not True:  # a flag is its option alone

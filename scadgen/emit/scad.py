@@ -79,7 +79,8 @@ def scad(kit: Kit) -> str:
         highest=HIGHEST,
         first_element=next(iter(kit.parts)),
         grid=kit.rows > 0,
-        placements=[_placement(p) for p in kit.placements],
+        # A grid lays its own frame out, by rows and columns.
+        placements=[] if kit.rows else [_placement(p) for p in kit.placements],
         half_side=_half_side(kit),
         chamfer=f"s[{live.index('peg_chamfer')}]" if "peg_chamfer" in live else "0",
         most_cells=MOST_CELLS,

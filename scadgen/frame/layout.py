@@ -18,7 +18,7 @@ from scadgen.frame.placement import KEYS, PARTS, Placement
 __all__ = ["LAYOUTS", "MOST_CELLS", "bill", "hexagonal", "joint", "square"]
 
 #: Rows and columns go from 1 to this; more makes files nobody can print or draw.
-MOST_CELLS = 50
+MOST_CELLS = 100
 
 Point = tuple[float, float]
 

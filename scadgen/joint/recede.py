@@ -20,7 +20,7 @@ from scipy.optimize import nnls
 from scadgen.errors import GeometryError
 from scadgen.joint.surface import Surface
 from scadgen.joint.walls import Facet
-from scadgen.solid.affine import Floats
+from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.planar import normal_of_loops
 
 __all__ = ["recede"]
@@ -33,6 +33,9 @@ _FLAT = 1e-6
 
 #: Least squared residual of the dual program for which the displacement exists.
 _FEASIBLE = 1e-10
+
+#: How exactly walls' planes are met where what limits a vertex is known, in displacements.
+_EXACT = 1e-12
 
 
 def recede(surface: Surface, moving: Collection[Facet]) -> Floats:
@@ -71,14 +74,11 @@ def recede(surface: Surface, moving: Collection[Facet]) -> Floats:
         vertex: _Vertex(held.get(vertex, []), around.get(vertex, []))
         for vertex in sorted({*around, *held})
     }
-    neighbours = _neighbours(surface)
     displacement = np.zeros_like(surface.points)
-    for sweep in range(_SWEEPS + 1):
-        for vertex, limits in vertices.items():
-            near = neighbours.get(vertex)
-            wish = displacement[near].mean(axis=0) if sweep and near else displacement[vertex]
-            displacement[vertex] = limits.nearest(wish, surface.points[vertex])
-    return displacement
+    for vertex, limits in vertices.items():
+        displacement[vertex] = limits.nearest(np.zeros(3), surface.points[vertex])
+    near = _neighbours(surface)
+    return _Sweeps({v: vertices[v] for v in near}, near, displacement, surface.points).done()
 
 
 def _neighbours(surface: Surface) -> dict[int, list[int]]:
@@ -87,7 +87,7 @@ def _neighbours(surface: Surface) -> dict[int, list[int]]:
     for triangle in surface.walls.tolist():
         for vertex in triangle:
             near[vertex].update(triangle)
-    return {vertex: sorted(found - {vertex}) for vertex, found in near.items()}
+    return {vertex: sorted(near[vertex] - {vertex}) for vertex in sorted(near)}
 
 
 class _Vertex:
@@ -111,11 +111,14 @@ class _Vertex:
             self._free = rows[int((size > _FLAT).sum()) :]
         self._rows = -np.array(walls).reshape(-1, 3)
         self._within = self._free @ self._rows.T
+        self.start, self.rows, self.projector = self._start, self._rows, self._free.T @ self._free
+        self.active = np.zeros(0, dtype=int)
 
     def nearest(self, wish: Floats, place: Floats) -> Floats:
         """The displacement nearest to a wish; `place` is for the message if there is none."""
         start = self._start + (wish - self._start) @ self._free.T @ self._free
         slack = 1.0 - self._rows @ start
+        self.active = np.zeros(0, dtype=int)
         if (slack <= 0).all():
             return np.asarray(start)
         system = np.vstack([self._within, slack])
@@ -130,4 +133,118 @@ class _Vertex:
                 "no clearance is possible there; another amplitude or bend helps"
             )
             raise GeometryError(msg)
+        self.active = np.flatnonzero(weights)
         return np.asarray(start - (rest[:-1] / rest[-1]) @ self._free)
+
+
+class _Sweeps:
+    """Sweeps over all vertices on walls, each as near to the middle of its neighbours as it may.
+
+    In a sweep each vertex comes after the neighbours before it and before those after it.
+    Vertices that do not wait for each other, in this sweep or in the next, are moved at once.
+    What limits a vertex mostly is what did in the sweep before, and that it is the displacement
+    nearest to the wish is easily seen then; only where it is not is it sought anew.
+
+    Parameters
+    ----------
+    vertices
+        The vertices, and what they obey.
+    near
+        The neighbours of each.
+    displacement
+        Of all points of the surface, to begin with.
+    points
+        The surface's points.
+    """
+
+    def __init__(
+        self,
+        vertices: dict[int, _Vertex],
+        near: dict[int, list[int]],
+        displacement: Floats,
+        points: Floats,
+    ) -> None:
+        self._limits, self._points = list(vertices.values()), points
+        self._number = np.array(list(vertices), dtype=int)
+        self._waves = _waves(near)
+        count = len(vertices)
+        self._degree = np.array([len(near[v]) for v in vertices])
+        most = max(self._degree, default=0)
+        # What is short of others is filled up: neighbours by a last point that never moves,
+        # walls by ones that ask for nothing.
+        self._moved = np.vstack([displacement, np.zeros(3)])
+        self._near = np.full((count, most), len(displacement))
+        rows = max((len(limits.rows) for limits in self._limits), default=0) + 1
+        self._walls, self._need = np.zeros((count, rows, 3)), np.zeros((count, rows))
+        self._start, self._projector = np.zeros((count, 3)), np.zeros((count, 3, 3))
+        self._active = np.full((count, 3), rows - 1)
+        self._push, self._inverse = np.zeros((count, 3, 3)), np.zeros((count, 3, 3))
+        for n, (vertex, limits) in enumerate(vertices.items()):
+            self._near[n, : self._degree[n]] = near[vertex]
+            self._walls[n, : len(limits.rows)], self._need[n, : len(limits.rows)] = limits.rows, 1.0
+            self._start[n], self._projector[n] = limits.start, limits.projector
+            self._active[n, : len(limits.active)] = limits.active
+        self._remember(np.arange(count))
+
+    def done(self) -> Floats:
+        """The displacements after all sweeps."""
+        for wave in self._waves:
+            self._move(wave)
+        return self._moved[:-1]
+
+    def _remember(self, places: Ints) -> None:
+        """Work out what follows from what limits some vertices."""
+        active = self._active[places]
+        push = self._walls[places[:, None], active] @ self._projector[places]
+        fill = active == self._walls.shape[1] - 1
+        self._push[places] = push
+        self._inverse[places] = np.linalg.inv(
+            push @ push.swapaxes(1, 2) + fill[:, None] * np.eye(3)
+        )
+
+    def _move(self, wave: Ints) -> None:
+        """Move vertices that do not wait for each other."""
+        wish = self._moved[self._near[wave]].sum(axis=1) / self._degree[wave, None]
+        walls, need, active = self._walls[wave], self._need[wave], self._active[wave]
+        start = self._start[wave]
+        start = start + _product(self._projector[wave], wish - start)
+        slack = need - _product(walls, start)
+        weights = _product(self._inverse[wave], np.take_along_axis(slack, active, axis=1))
+        found = start + np.einsum("kij,ki->kj", self._push[wave], weights)
+        left = need - _product(walls, found)
+        off = np.abs(np.take_along_axis(left, active, axis=1)).max(axis=1)
+        good = (weights >= 0).all(axis=1) & (left.max(axis=1) < _EXACT) & (off < _EXACT)
+        self._moved[self._number[wave]] = found
+        if not good.all():
+            self._seek(wave[~good], wish[~good])
+
+    def _seek(self, places: Ints, wishes: Floats) -> None:
+        """Move vertices that something else limits than in the sweep before."""
+        for n, wish in zip(places.tolist(), wishes, strict=True):
+            vertex, limits = self._number[n], self._limits[n]
+            self._moved[vertex] = limits.nearest(wish, self._points[vertex])
+            self._active[n] = self._walls.shape[1] - 1
+            self._active[n, : len(limits.active)] = limits.active
+        self._remember(places)
+
+
+def _product(matrices: Floats, vectors: Floats) -> Floats:
+    """The product of each matrix with its vector."""
+    return np.asarray((matrices @ vectors[..., None])[..., 0])
+
+
+def _waves(near: dict[int, list[int]]) -> list[Ints]:
+    """What can be moved at once, for all sweeps: places of vertices among those given."""
+    place = {vertex: n for n, vertex in enumerate(near)}
+    before = [[place[u] for u in found if u < v] for v, found in near.items()]
+    after = [[place[u] for u in found if u > v] for v, found in near.items()]
+    waves: list[list[int]] = []
+    wave = [-1] * len(near)
+    for _ in range(_SWEEPS):
+        for n in range(len(near)):
+            # What comes after it has the number of the sweep before still.
+            wave[n] = 1 + max(wave[n], *(wave[u] for u in before[n]), *(wave[u] for u in after[n]))
+            if wave[n] == len(waves):
+                waves.append([])
+            waves[wave[n]].append(n)
+    return [np.array(found) for found in waves]

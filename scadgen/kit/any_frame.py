@@ -8,7 +8,7 @@ edge there, ``connector_A1``, and so are the halves it may be split into: ``half
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -17,19 +17,21 @@ import numpy as np
 from scadgen.element.ends import End, connector, connector_end, key_end, part, peg
 from scadgen.element.pieces import half
 from scadgen.element.squares import Key
-from scadgen.errors import GeometryError, InputError, InvariantError
+from scadgen.errors import InputError, InvariantError
 from scadgen.frame.graph import Frame, make_frame
 from scadgen.frame.joints import check_lengths, least_scale
 from scadgen.frame.kinds import Kinds, choose_kinds
 from scadgen.frame.placement import Placement
 from scadgen.frame.planarity import where
 from scadgen.frame.sameness import Sameness, joint_name, sameness
-from scadgen.joint.weave import LIMITS, Weave, any_joint
+from scadgen.joint.weave import Weave, any_joint
 from scadgen.kit.model import Joint, Kit
-from scadgen.kit.pieces import Pieces, best_pieces
+from scadgen.kit.pieces import Pieces
 from scadgen.kit.ranges import TUBE, check_values, edge_range, ranges
 from scadgen.kit.request import Request, default_values
+from scadgen.kit.wanted import Wanted, wanted_pieces
 from scadgen.solid.affine import AffineSolid, Floats, Range
+from scadgen.work.each import Means
 
 __all__ = ["build_frame"]
 
@@ -50,8 +52,19 @@ _WIDER = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3)
 _End = tuple[int, int, bool]
 
 
-def build_frame(request: Request) -> Kit:
+def build_frame(
+    request: Request, means: Means, done: Callable[[int, int], None] = lambda *_: None
+) -> Kit:
     """Make a kit of any frame.
+
+    Parameters
+    ----------
+    request
+        What kit to make.
+    means
+        Who computes its joints, and where they are kept.
+    done
+        Told how many of how many joints are computed, after each.
 
     Raises
     ------
@@ -65,9 +78,8 @@ def build_frame(request: Request) -> Kit:
     weaves = [_weave(frame, kinds, number) for number in range(len(kinds.kinds))]
     frame = _sized(request, frame, np.array([weaves[n].ring_ratio for n in kinds.kind_of]))
     same = sameness(frame)
-    pieces = tuple(
-        _pieces(request, frame, kinds, number, weave) for number, weave in enumerate(weaves)
-    )
+    wanted = [_wanted(request, frame, kinds, number, weave) for number, weave in enumerate(weaves)]
+    pieces = wanted_pieces(wanted, means, lambda count: done(count, len(wanted)))
     build = _Build(frame, same, kinds, pieces)
     limits = build.limits()
     values = default_values(request, pieces, limits)
@@ -145,28 +157,18 @@ def _where(frame: Frame, kinds: Kinds, number: int) -> str:
     return f"vertex {vertex} at {where(frame.vertices[vertex])}, angles {angles}"
 
 
-def _pieces(request: Request, frame: Frame, kinds: Kinds, number: int, weave: Weave) -> Pieces:
-    """The pieces of all joints of one kind, on a ring hardly wider where need be.
-
-    Raises
-    ------
-    GeometryError
-        The weave makes no sound ones: says where.
-    """
-    keys = kinds.kinds[number].keys
-    directions = kinds.shape(number).directions.tolist()
-    refusal: GeometryError | None = None
-    for wider in _WIDER:
-        ring_ratio = min(round(weave.ring_ratio + wider, 2), LIMITS["ring_ratio"][1])
-        own = replace(weave, ring_ratio=ring_ratio)
-        try:
-            return best_pieces(
-                directions, own, request.key, request.detail, keys, bored=request.bored
-            )
-        except GeometryError as error:
-            refusal = refusal or error
-    msg = f"{_where(frame, kinds, number)}: {refusal}"
-    raise GeometryError(msg) from refusal
+def _wanted(request: Request, frame: Frame, kinds: Kinds, number: int, weave: Weave) -> Wanted:
+    """The joint whose pieces all joints of one kind have."""
+    return Wanted(
+        tuple(kinds.shape(number).directions.tolist()),
+        weave,
+        request.key,
+        request.detail,
+        kinds.kinds[number].keys,
+        request.bored,
+        _WIDER,
+        _where(frame, kinds, number),
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -285,7 +287,7 @@ class _Build:
             connectors=tuple(
                 self._name("connector", number, slot + first) for slot in range(count)
             ),
-            weave=one.joint.weave.as_dict(),
+            weave=one.weave.as_dict(),
             pieces=tuple(
                 self._standing(number, (0.0, 0.0), -shape.directions[first], range(count))
             ),

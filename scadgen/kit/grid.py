@@ -13,13 +13,22 @@ from scadgen.kit.model import Joint, Kit
 from scadgen.kit.pieces import Pieces, best_pieces
 from scadgen.kit.ranges import check_values, ranges
 from scadgen.kit.request import Request, default_values
+from scadgen.kit.wanted import Wanted, wanted_pieces
 from scadgen.solid.affine import AffineSolid
+from scadgen.work.each import Means
 
 __all__ = ["build_grid", "build_joint"]
 
 
-def build_grid(request: Request) -> Kit:
+def build_grid(request: Request, means: Means) -> Kit:
     """Make a kit of a hexagonal or square frame.
+
+    Parameters
+    ----------
+    request
+        What kit to make.
+    means
+        Where its joint is kept.
 
     Raises
     ------
@@ -28,13 +37,11 @@ def build_grid(request: Request) -> Kit:
     GeometryError
         The weave makes no sound pieces.
     """
-    pieces = best_pieces(
-        _even(request.valence),
-        request.chosen_weave,
-        request.key,
-        request.detail,
-        bored=request.bored,
+    directions = tuple(_even(request.valence))
+    wanted = Wanted(
+        directions, request.chosen_weave, request.key, request.detail, bored=request.bored
     )
+    (pieces,) = wanted_pieces([wanted], means)
     return _kit(pieces, request)
 
 
@@ -65,7 +72,7 @@ def _kit(pieces: Pieces, request: Request) -> Kit:
     limits = ranges(pieces.key, pieces.clearance_limit, pieces.hole())
     values = default_values(request, [pieces], limits)
     check_values(limits, values)
-    count = len(pieces.joint.edges)
+    count = len(pieces.connectors)
     kind = Joint(
         name="",
         turns=tuple(360.0 * n / count for n in range(count)),

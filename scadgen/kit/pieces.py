@@ -54,8 +54,8 @@ class Pieces:
 
     Parameters
     ----------
-    joint
-        The joint.
+    weave
+        The joint's weave.
     key
         What its keys are like.
     connectors
@@ -65,19 +65,75 @@ class Pieces:
         are the same where the joint is alike on both sides of it.
     clearance_limit
         Clearance up to which they are proven sound, in sides.
+    holes
+        Free width of the ring's hole along each edge, as wide as the window, in sides.
+    arm
+        Thinnest section of the connectors' arms, in sides.
+    volume
+        Of the domain, in cubic sides.
     extra
-        Extra cells of its lattice.
+        Extra cells of the lattice.
     """
+
+    weave: Weave
+    key: Key
+    connectors: tuple[Piece, ...]
+    halves: Mapping[int, tuple[Piece, Piece]]
+    clearance_limit: float
+    holes: tuple[float, ...]
+    arm: float
+    volume: float
+    extra: int
+
+    def hole(self, edge: int = 0) -> float:
+        """Free width of the ring's hole along an edge, as wide as the window."""
+        return self.holes[edge]
+
+    def figures(self) -> dict[str, float]:
+        """What is known about them, in sides."""
+        return {
+            "tube_start_sides": self.key.tube_start,
+            "pad_sides": self.key.pad,
+            "ring_hole_sides": min(self.hole(edge) for edge in self.halves),
+            "window_half_width_sides": self.key.window,
+            "window_depth_sides": self.key.depth,
+            "clearance_limit_sides": self.clearance_limit,
+            "thinnest_arm_sides": self.arm,
+            "domain_volume_sides3": self.volume,
+            "lattice_extra": float(self.extra),
+        }
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Tried:
+    """Pieces on one lattice."""
 
     joint: Joint
     key: Key
     connectors: tuple[Piece, ...]
     halves: Mapping[int, tuple[Piece, Piece]]
-    clearance_limit: float
+    limit: float
     extra: int
 
-    def hole(self, edge: int = 0) -> float:
-        """Free width of the ring's hole along a key's edge, as wide as the window."""
+    def pieces(self) -> Pieces:
+        """The pieces with all that is to be known about them."""
+        made = self.joint
+        edges = sorted(
+            {n for n, piece in enumerate(self.connectors) if piece in self.connectors[n:]}
+        )
+        return Pieces(
+            weave=made.weave,
+            key=self.key,
+            connectors=self.connectors,
+            halves=self.halves,
+            clearance_limit=self.limit,
+            holes=tuple(self._hole(edge) for edge in range(len(made.edges))),
+            arm=min(arm(made.lattice, made.curves, edge, made.walls) for edge in edges),
+            volume=made.lattice.volume(),
+            extra=self.extra,
+        )
+
+    def _hole(self, edge: int) -> float:
         outline = self.joint.lattice.nodes[:, 0, 0, :2]
         turn = float(self.joint.edges[edge])
         c, s = math.cos(turn), math.sin(turn)
@@ -87,26 +143,6 @@ class Pieces:
         points = (outline + share * (ends - outline)).reshape(-1, 2)
         ahead = (points[:, 0] < 0) & (np.abs(points[:, 1]) <= self.key.window + 0.05)
         return float(self.key.pad + np.abs(points[ahead, 0]).min())
-
-    def figures(self) -> dict[str, float]:
-        """What is known about them, in sides."""
-        made, key = self.joint, self.key
-        edges = sorted(
-            {n for n, piece in enumerate(self.connectors) if piece in self.connectors[n:]}
-        )
-        return {
-            "tube_start_sides": key.tube_start,
-            "pad_sides": key.pad,
-            "ring_hole_sides": min(self.hole(edge) for edge in self.halves),
-            "window_half_width_sides": key.window,
-            "window_depth_sides": key.depth,
-            "clearance_limit_sides": self.clearance_limit,
-            "thinnest_arm_sides": min(
-                arm(made.lattice, made.curves, edge, made.walls) for edge in edges
-            ),
-            "domain_volume_sides3": made.lattice.volume(),
-            "lattice_extra": float(self.extra),
-        }
 
 
 def best_pieces(
@@ -146,21 +182,21 @@ def best_pieces(
     curves = site_curves(probe.edges, weave, detail.samples, walls)
     for edge in range(len(directions)):
         check_footprint(probe, curves, edge)
-    best: Pieces | None = None
+    best: _Tried | None = None
     refusal: ScadgenError | None = None
     for extra in _LATTICES:
         try:
             made = make_joint(directions, weave, detail, extra, keys)
-            found = _pieces(made, style, extra, keys, bored=bored)
+            found = _tried(made, style, extra, keys, bored=bored)
         except (GeometryError, InvariantError) as error:
             refusal = refusal or error
             continue
-        if best is None or found.clearance_limit > best.clearance_limit:
+        if best is None or found.limit > best.limit:
             best = found
-        if found.clearance_limit >= _ENOUGH:
+        if found.limit >= _ENOUGH:
             break
-    if best is not None and best.clearance_limit >= _LEAST:
-        return best
+    if best is not None and best.limit >= _LEAST:
+        return best.pieces()
     if isinstance(refusal, GeometryError):
         raise refusal
     msg = (
@@ -170,7 +206,7 @@ def best_pieces(
     raise GeometryError(msg)
 
 
-def _pieces(made: Joint, style: str, extra: int, keys: Sequence[int], *, bored: bool) -> Pieces:
+def _tried(made: Joint, style: str, extra: int, keys: Sequence[int], *, bored: bool) -> _Tried:
     """The pieces of a joint, and the clearance up to which they are sound."""
     key = _key(made, style, keys, bored=bored)
     wholes = {
@@ -193,7 +229,7 @@ def _pieces(made: Joint, style: str, extra: int, keys: Sequence[int], *, bored: 
         if limit < _LEAST:
             break
     connectors = tuple(wholes[id(surface)] for surface in made.connectors)
-    return Pieces(made, key, connectors, halves, math.floor(limit * 1e3) / 1e3, extra)
+    return _Tried(made, key, connectors, halves, math.floor(limit * 1e3) / 1e3, extra)
 
 
 def _limit(solid: AffineSolid, key: Key) -> float:

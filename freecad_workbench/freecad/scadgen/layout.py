@@ -30,7 +30,7 @@ PARAMETERS = (
 )
 
 #: Most rows or columns of a frame.
-MOST_CELLS = 50
+MOST_CELLS = 100
 
 Placements = List[Dict[str, Any]]
 
