@@ -15,6 +15,7 @@ import in_freecad
 import locking
 import proving
 import refining
+import scaling
 from report import heading, line, progress
 
 from scadgen.errors import ScadgenError
@@ -43,6 +44,7 @@ def main() -> None:
     locking.run()
     proving.run()
     in_freecad.run()
+    scaling.run()
     heading("This run")
     line("wall time", f"{time.monotonic() - start:.0f} s", "at most 300 s")
     progress("done")
