@@ -16,6 +16,7 @@ import locking
 import planning
 import proving
 import refining
+import scaling
 from report import heading, line, progress
 
 from scadgen.errors import ScadgenError
@@ -45,6 +46,7 @@ def main() -> None:
     proving.run()
     planning.run()
     in_freecad.run()
+    scaling.run()
     heading("This run")
     line("wall time", f"{time.monotonic() - start:.0f} s", "at most 300 s")
     progress("done")
