@@ -3,6 +3,7 @@
 import math
 import re
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,9 +13,10 @@ from kits import WEAVES, joint, kit, mesh, regular
 from scipy.spatial import cKDTree
 
 from scadgen.errors import GeometryError, InputError, InvariantError
-from scadgen.joint.joint import DETAILS, make_joint
+from scadgen.joint.joint import DETAILS, make_joint, wall_angles
 from scadgen.joint.lattice import make_lattice
-from scadgen.joint.weave import Weave
+from scadgen.joint.place import distances
+from scadgen.joint.weave import Weave, any_joint
 from scadgen.solid.crossing import crossing_faces
 from scadgen.solid.mesh import components, solid_faults, volume, weld_float32
 
@@ -198,3 +200,29 @@ def test_a_ring_too_small_for_its_tubes_is_refused_with_what_is_needed():
 def test_a_weave_that_makes_no_pieces_is_refused(count, weave, message):
     with pytest.raises(GeometryError, match=message):
         make_joint(regular(count), weave, DETAILS["draft"])
+
+
+def test_walls_are_beside_keys_and_else_in_the_middle_of_their_gaps():
+    edges, weave = np.radians([0, 90, 210]), any_joint(np.pi / 2)
+    near = np.degrees(weave.stretch / 2 / weave.ring_ratio)
+    assert near == pytest.approx(45, abs=0.2)
+    for keys, expected in (
+        ((), [45, 60, 75]),
+        ((0,), [near, 60, 150 - near]),
+        ((2,), [45, 120 - near, near]),
+        ((1, 2), [90 - near, near, near]),
+    ):
+        assert np.degrees(wall_angles(edges, weave, keys)) == pytest.approx(expected)
+    plain = replace(weave, stretch=None)
+    assert np.degrees(wall_angles(edges, plain, (0,))) == pytest.approx([45, 60, 75])
+
+
+def test_distances_that_are_not_wanted_are_bounded_from_above():
+    made = joint("square")
+    points = np.random.default_rng(5).uniform([-3, -3, -0.5], [3, 3, 0.5], (400, 3))
+    exact, nearly = distances(made.curves, points), distances(made.curves, points, 0.5)
+    assert (nearly >= exact - 1e-12).all()
+    wanted = exact <= exact.min(axis=0) + 0.5
+    assert wanted.sum() < wanted.size
+    assert np.allclose(nearly[wanted], exact[wanted], rtol=0, atol=1e-12)
+    assert np.array_equal(nearly.argmin(axis=0), exact.argmin(axis=0))

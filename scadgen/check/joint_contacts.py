@@ -12,7 +12,7 @@ import numpy as np
 
 from scadgen.interlock.contacts import Contacts, Mesh
 from scadgen.joint.lattice import Lattice
-from scadgen.joint.place import distances, place
+from scadgen.joint.place import BESIDE, distances, place
 from scadgen.joint.walls import Key
 from scadgen.joint.weave import SiteCurve
 from scadgen.solid.affine import Ints
@@ -22,9 +22,6 @@ __all__ = ["whole_contacts"]
 #: How much farther than the nearest curve one may be at a wall, in sides: Newton's steps end
 #: nearer than that, and where a third curve is nearer there is no wall.
 _ON_WALL = 1e-7
-
-#: How much farther than the nearest curve one may be that has a wall in a cell there, in sides.
-_NEARLY = 0.8
 
 #: Difference of two distances' slopes below which a wall's normal is unknown.
 _STEEP = 1e-6
@@ -45,7 +42,7 @@ def whole_contacts(lattice: Lattice, curves: Sequence[SiteCurve]) -> tuple[list[
     contacts
         Between these; normals are those of the exact walls.
     """
-    far = distances(curves, lattice.nodes, _NEARLY)
+    far = distances(curves, lattice.nodes, BESIDE)
     keys, pairs = _crossed(far.argmin(axis=0))
     points = place(lattice, curves, far, keys)
     found = [curve.distance(points) for curve in curves]

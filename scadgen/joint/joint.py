@@ -12,7 +12,7 @@ from scadgen.errors import GeometryError
 from scadgen.joint.fan import fanned
 from scadgen.joint.lattice import Lattice, make_lattice, without_corners
 from scadgen.joint.pieces import SPLIT, halves
-from scadgen.joint.place import distances, place
+from scadgen.joint.place import BESIDE, distances, place
 from scadgen.joint.surface import Surface, half_turn, join, simplify
 from scadgen.joint.territory import belongs, share
 from scadgen.joint.tidy import corners_in_the_way, merge_short_sides
@@ -49,10 +49,6 @@ class Detail:
 
 #: Angles as near to each other as this are the same, in radians.
 _ALIKE = 1e-9
-
-#: How much farther than the nearest curve one may be that has a wall in a cell there, in sides:
-#: two diagonals of the widest cells.
-_NEARLY = 0.8
 
 #: The levels of detail by name.
 DETAILS: Mapping[str, Detail] = MappingProxyType(
@@ -95,8 +91,8 @@ def wall_angles(edges: Sequence[float] | Floats, weave: Weave, keys: Collection[
     """Angle from each edge to the wall after it, ``(k,)``.
 
     Where the arms of a weave weave in a stretch, a wall beside a key is as near to it as that
-    allows, so that halves are the same, and come out the same way, whatever the gap.  All others
-    are in the middle of their gaps, as are all walls of weaves without one.
+    allows, so that halves come out the same way whatever the gap; between two keys it is beside
+    the first.  All others are in the middle of their gaps, as are all walls of other weaves.
     """
     gaps = _gaps(np.asarray(edges, dtype=float))
     if weave.stretch is None:
@@ -177,7 +173,7 @@ def make_joint(
     computed = range(_period(steps))
     for edge in computed:
         check_footprint(lattice, curves, edge)
-    far = distances(curves, lattice.nodes, _NEARLY)
+    far = distances(curves, lattice.nodes, BESIDE)
     labels = far.argmin(axis=0)
     walls = list(wedges(lattice, labels))
     corners = sorted({corner for wedge in walls for corner in wedge.corners})

@@ -19,10 +19,14 @@ from scadgen.joint.walls import Key
 from scadgen.joint.weave import SiteCurve
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["distances", "place"]
+__all__ = ["BESIDE", "distances", "place"]
 
 #: Newton steps; they converge quadratically from within a cell.
 _STEPS = 5
+
+#: How much farther than the nearest curve one may be that has a wall in a cell there, in sides:
+#: two diagonals of the widest cells there are, outside on the smallest ring at `draft`.
+BESIDE = 1.0
 
 #: How far a vertex may move from where it starts, in diameters of its feature.
 _STRAY = 0.5

@@ -1,0 +1,94 @@
+"""How many random planar frames become proved kits, and why others do not.
+
+usage: benchmarks/random_frames.py [COUNT] [SEED]
+Each has 3 to 60 vertices, edges of a Delaunay triangulation that are 25 degrees apart and more,
+and is as large as its joints need.  A kit is at detail `draft`, with all joints proved; what is
+refused is told with its reason.  One line a frame.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+import time
+from collections import Counter
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import Delaunay
+
+from scadgen.check.proof import proved
+from scadgen.errors import ScadgenError
+from scadgen.frame.graph import Frame, make_frame
+from scadgen.kit.build import Request, build
+
+#: Least angle between two edges, in degrees, and the vertices of a frame.
+LEAST, FEWEST, MOST = 25.5, 3, 60
+
+
+def random_frame(random: np.random.Generator) -> Frame:
+    """A connected planar frame."""
+    while True:
+        count = round(math.exp(random.uniform(math.log(FEWEST), math.log(MOST))))
+        points = random.uniform(0, 100 * math.sqrt(count), (count, 2))
+        triangles = Delaunay(points).simplices
+        pairs = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, 1:], triangles[:, ::2]]))
+        edges = np.unique(pairs, axis=0)
+        edges = thinned(points, edges[random.permutation(len(edges))])
+        if connected(edges, count):
+            kept = [edges]
+            for edge in random.permutation(len(edges))[: int(random.uniform(0, 0.4) * len(edges))]:
+                fewer = kept[-1][(kept[-1] != edges[edge]).any(axis=1)]
+                if connected(fewer, count):
+                    kept.append(fewer)
+            return make_frame("random", points, kept[-1])
+
+
+def connected(edges: np.ndarray, count: int) -> bool:
+    """Whether edges join all vertices."""
+    graph = coo_array((np.ones(len(edges)), edges.T), shape=(count, count))
+    return bool(connected_components(graph, directed=False)[0] == 1)
+
+
+def thinned(points: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    """Those of some edges that keep their distance from all kept before them."""
+    taken: list[list[float]] = [[] for _ in points]
+    kept = []
+    for a, b in edges.tolist():
+        x, y = points[b] - points[a]
+        turn = math.atan2(y, x)
+        ends = (a, turn), (b, turn + math.pi)
+        if all(
+            abs((other - angle + math.pi) % (2 * math.pi) - math.pi) > math.radians(LEAST)
+            for end, angle in ends
+            for other in taken[end]
+        ):
+            kept.append([a, b])
+            for end, angle in ends:
+                taken[end].append(angle)
+    return np.array(kept)
+
+
+def main(count: int, seed: int) -> None:
+    """Make the frames and say what becomes of them."""
+    ends: Counter[str] = Counter()
+    for number in range(seed, seed + count):
+        frame = random_frame(np.random.default_rng(number))
+        start = time.process_time()
+        wish = Request("random", "loose", 0, 0, "draft", graph=frame, resizable=True)
+        try:
+            kit = proved(build(wish))
+            end, said = "kit", f"{len(kit.joints)} kinds of joints"
+        except ScadgenError as error:
+            end, said = type(error).__name__, str(error)
+        ends[end] += 1
+        size = f"{len(frame.vertices):3d} vertices, {len(frame.edges):3d} edges"
+        seconds = time.process_time() - start
+        print(f"{number:4d}: {size}, {seconds:6.1f} CPU s: {end}: {said}", flush=True)
+    print(f"{ends['kit']} of {count} are kits; others: {dict(ends - Counter(kit=ends['kit']))}")
+
+
+if __name__ == "__main__":
+    words = [int(word) for word in sys.argv[1:3]]
+    main(*words, *(200, 0)[len(words) :])
