@@ -122,7 +122,7 @@ def test_angles_that_no_ring_holds_and_loose_ends_are_told(run, said, tmp_path):
     loose, narrow = fan["in_the_way"][:2]
     assert loose.startswith("joint A: has one edge, at (0, 0) (and 1 more)")
     assert narrow.startswith("joint B: edges 2.862 degrees apart, at (200, 10), need a ring ratio")
-    assert "over 19.52; at most 8 works, for 6.745 degrees and more" in narrow
+    assert "over 19.52; at most 10 works, for 5.459 degrees and more" in narrow
     code, out, _ = run(path)
     assert code == 0
     assert out.endswith("cannot be built at any side\n")
@@ -268,7 +268,7 @@ def test_names_of_joints_go_on_after_z():
         (("square", "--outline", "0,0 1"), "outline = '0,0 1': must be corners such as"),
         (("ring", "--side", 4), "side = 4 mm: must be from 5 to 100"),
         (("ring", "--side", "nan"), "side = nan mm"),
-        (("ring", "--ring-ratio", 9), "ring-ratio = 9 sides: must be from 0.8 to 8"),
+        (("ring", "--ring-ratio", 11), "ring-ratio = 11 sides: must be from 0.8 to 10"),
         (("ring", "--snap-angle", 30), "snap-angle = 30 degrees: must be above 0 and under 30"),
         (("ring", "--snap-length", 0), "snap-length = 0 mm: must be a positive number of mm"),
         (("ring", "-o", "."), "cannot write '.': it is not a file"),
