@@ -49,6 +49,7 @@ def test_what_was_done_before_an_interrupt_is_kept_and_gone_on_with(tmp_path):
     first = started(tmp_path, "--jobs", "2", "-o", "kit")
     said = [line for line in iter(first.stderr.readline, "") if _counted(first, line)]
     assert said[-1] == "scadgen: interrupted\n"
+    assert not any("Traceback" in line for line in said), "".join(said)
     assert first.wait(60) == 130
     assert not (tmp_path / "kit").exists()
     first.stdout.close()

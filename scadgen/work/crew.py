@@ -161,9 +161,13 @@ def _uninterrupted() -> Iterator[None]:
 
     An interrupt is for the one who waits, and ends who works.
     """
+    from multiprocessing import resource_tracker
+
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
+    # Where it is not there yet, its start would let interrupts through again.
+    resource_tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
