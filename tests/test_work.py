@@ -2,6 +2,8 @@
 
 import multiprocessing
 import os
+import subprocess
+import sys
 import time
 
 import numpy as np
@@ -184,3 +186,20 @@ def test_the_folder_is_the_one_named_or_the_users(monkeypatch, tmp_path):
     assert default_folder() == tmp_path / "scadgen"
     monkeypatch.setenv("SCADGEN_CACHE", str(tmp_path / "own"))
     assert default_folder() == tmp_path / "own"
+
+
+SPAWNS = """
+import signal
+from scadgen.work.crew import Crew
+
+def blocked(_):
+    return signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+
+print([result for _, result in Crew(2).outcomes(blocked, [1, 2, 3])], blocked(0))
+"""
+
+
+def test_no_interrupt_reaches_processes_that_a_fresh_one_starts():
+    command = [sys.executable, "-c", SPAWNS]
+    run = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert (run.stdout, run.stderr) == ("[True, True, True] False\n", "")
