@@ -1,8 +1,8 @@
-"""Kits of any frame: a kind of joint for each set of angles, an element for each kind of edge.
+"""Kits of any frame: a kind of joint for each set of angles and keys, an element for each edge's.
 
-Joints have letters.  A connector is named by its joint and its
-edge there, ``connector_A1``, and so are the halves it may be split into: ``half_A1``, and
-``half_A1_over`` for half B where that is another part.  Edge elements are numbered.
+Joints have letters.  A connector is named by its joint and its edge there, ``connector_A1``, and
+so are the halves it may be split into: ``half_A1``, and ``half_A1_over`` for half B where that is
+another part.  Edge elements are numbered.
 """
 
 from __future__ import annotations

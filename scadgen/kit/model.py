@@ -76,8 +76,7 @@ class Joint:
     Parameters
     ----------
     name
-        A letter, with a number where joints of the same angles differ in their keys; empty
-        in a frame that has one kind.
+        A letter; empty in a frame that has one kind.
     turns
         Direction of each edge, in degrees, ascending from that of its first key, 0.
     keys
