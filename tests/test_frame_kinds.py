@@ -44,7 +44,7 @@ def assert_directions_are_those_of_the_edges(frame, kinds):
     for edge, (pair, slots) in enumerate(zip(frame.edges, kinds.slots, strict=True)):
         for end, vertex in enumerate(pair):
             step = frame.vertices[pair[1 - end]] - frame.vertices[vertex]
-            shape = kinds.shapes[kinds.shape_of[vertex]]
+            shape = kinds.shape(kinds.kind_of[vertex])
             turn = kinds.turn[vertex] + shape.directions[slots[end]]
             off = (np.arctan2(step[1], step[0]) - turn + np.pi) % (2 * np.pi) - np.pi
             assert abs(off) < 3e-4, (edge, end)

@@ -118,11 +118,6 @@ class Kinds:
             if {(slot + turn) % count for slot in keys} == set(keys)
         )
 
-    @property
-    def shape_of(self) -> Ints:
-        """``(n,) int``: the shape of each vertex."""
-        return np.array([kind.shape for kind in self.kinds])[self.kind_of]
-
 
 def choose_kinds(frame: Frame, same: Sameness, *, rim: bool = True) -> Kinds:
     """Fill up rims with caps, and choose the keys.
