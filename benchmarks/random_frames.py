@@ -26,12 +26,15 @@ from scadgen.kit.build import Request, build
 #: Least angle between two edges, in degrees, and the vertices of a frame.
 LEAST, FEWEST, MOST = 25.5, 3, 60
 
+#: Least distance of two vertices, where there is one for each square of 100.
+APART = 50.0
+
 
 def random_frame(random: np.random.Generator) -> Frame:
     """A connected planar frame."""
     while True:
         count = round(math.exp(random.uniform(math.log(FEWEST), math.log(MOST))))
-        points = random.uniform(0, 100 * math.sqrt(count), (count, 2))
+        points = apart(random, count)
         triangles = Delaunay(points).simplices
         pairs = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, 1:], triangles[:, ::2]]))
         edges = np.unique(pairs, axis=0)
@@ -43,6 +46,16 @@ def random_frame(random: np.random.Generator) -> Frame:
                 if connected(fewer, count):
                     kept.append(fewer)
             return make_frame("random", points, kept[-1])
+
+
+def apart(random: np.random.Generator, count: int) -> np.ndarray:
+    """Random points that keep a distance from each other."""
+    points = np.empty((0, 2))
+    while len(points) < count:
+        point = random.uniform(0, 100 * math.sqrt(count), 2)
+        if (np.linalg.norm(points - point, axis=1) > APART).all():
+            points = np.vstack([points, point])
+    return points
 
 
 def connected(edges: np.ndarray, count: int) -> bool:

@@ -13,9 +13,9 @@ from kits import WEAVES, joint, kit, mesh, regular
 from scipy.spatial import cKDTree
 
 from scadgen.errors import GeometryError, InputError, InvariantError
+from scadgen.joint.curve import distances
 from scadgen.joint.joint import DETAILS, make_joint, wall_angles
 from scadgen.joint.lattice import make_lattice
-from scadgen.joint.place import distances
 from scadgen.joint.weave import Weave, any_joint
 from scadgen.solid.crossing import crossing_faces
 from scadgen.solid.mesh import components, solid_faults, volume, weld_float32

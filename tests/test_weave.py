@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from scadgen.errors import InputError
 from scadgen.frame.placement import KEYS
-from scadgen.joint.weave import BUILT_IN, SiteCurve, Weave, any_joint
+from scadgen.joint.curve import SiteCurve
+from scadgen.joint.weave import BUILT_IN, Weave, any_joint
 from scadgen.kit.build import VALENCE
 
 GOOD = {"ring_ratio": 1.5, "span": 0.8, "amplitude": 0.2, "bend": 0.5, "periods": 1.0}

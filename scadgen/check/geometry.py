@@ -12,6 +12,7 @@ import numpy as np
 from scadgen.check.result import Result
 from scadgen.errors import ScadgenError
 from scadgen.frame.placement import Placement
+from scadgen.joint.curve import SiteCurve
 from scadgen.joint.joint import (
     DETAILS,
     Detail,
@@ -23,7 +24,7 @@ from scadgen.joint.joint import (
 from scadgen.joint.joint import Joint as MadeJoint
 from scadgen.joint.lattice import Lattice, make_lattice, without_corners
 from scadgen.joint.tidy import corners_in_the_way
-from scadgen.joint.weave import SiteCurve, Weave
+from scadgen.joint.weave import Weave
 from scadgen.kit.build import Request, build
 from scadgen.kit.model import Joint, Kit
 from scadgen.kit.store import dumps

@@ -11,10 +11,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from scadgen.interlock.contacts import Contacts, Mesh
+from scadgen.joint.curve import SiteCurve, distances
 from scadgen.joint.lattice import Lattice
-from scadgen.joint.place import BESIDE, distances, place
+from scadgen.joint.place import BESIDE, place
 from scadgen.joint.walls import Key
-from scadgen.joint.weave import SiteCurve
 from scadgen.solid.affine import Ints
 
 __all__ = ["whole_contacts"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -43,18 +43,25 @@ def add_surface(shell: Shell, piece: Piece, left_out: Collection[Facet]) -> None
     """Add a piece's walls and facets to an empty shell, so that it keeps its numbering."""
     shell.vertices({"side": piece.surface.points, "clearance": piece.displacement / 2})
     shell.triangles(piece.surface.walls)
-    for facet in piece.surface.outlines:
-        if facet not in left_out:
-            add_facet(shell, piece, facet, piece.surface.loops(facet))
+    kept = [facet for facet in piece.surface.outlines if facet not in left_out]
+    _add_facets(shell, piece, {facet: piece.surface.loops(facet) for facet in kept})
 
 
 def add_facet(shell: Shell, piece: Piece, facet: Facet, loops: Sequence[Sequence[int]]) -> None:
     """Add a facet of a piece, by its outlines in the shell's numbering."""
-    used = [v for loop in loops for v in loop]
+    _add_facets(shell, piece, {facet: loops})
+
+
+def _add_facets(
+    shell: Shell, piece: Piece, facets: Mapping[Facet, Sequence[Sequence[int]]]
+) -> None:
+    used = sorted({v for loops in facets.values() for loop in loops for v in loop})
+    local = {v: n for n, v in enumerate(used)}
     place = shell.points(used, {"side": 1.0, "clearance": piece.rest})
-    local = np.split(np.arange(len(used)), np.cumsum([len(loop) for loop in loops])[:-1])
-    corners = np.array(used)[triangulate(place, [part.tolist() for part in local])]
-    shell.triangles(corners, facet[0] if facet[0] in ("top", "bottom") else facet)
+    outlines = [[[local[v] for v in loop] for loop in loops] for loops in facets.values()]
+    for facet, triangles in zip(facets, triangulate(place, outlines), strict=True):
+        corners = np.array(used)[triangles]
+        shell.triangles(corners, facet[0] if facet[0] in ("top", "bottom") else facet)
 
 
 def half(key: Key, piece: Piece) -> AffineSolid:

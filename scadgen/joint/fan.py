@@ -7,8 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from scadgen.joint.curve import SiteCurve
 from scadgen.joint.walls import Key, Wedge
-from scadgen.joint.weave import SiteCurve
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["fanned"]

@@ -9,26 +9,32 @@ from types import MappingProxyType
 import numpy as np
 
 from scadgen.errors import GeometryError
+from scadgen.joint.curve import SiteCurve, distances
 from scadgen.joint.fan import fanned
 from scadgen.joint.lattice import Lattice, make_lattice, without_corners
 from scadgen.joint.pieces import SPLIT, halves
-from scadgen.joint.place import BESIDE, distances, place
+from scadgen.joint.place import BESIDE, place
 from scadgen.joint.surface import Surface, half_turn, join, simplify
 from scadgen.joint.territory import belongs, share
 from scadgen.joint.tidy import corners_in_the_way, merge_short_sides
 from scadgen.joint.walls import Key, wedges
-from scadgen.joint.weave import SiteCurve, Weave
+from scadgen.joint.weave import Weave
 from scadgen.solid.affine import Floats
 
 __all__ = [
     "DETAILS",
     "Detail",
+    "FaceError",
     "Joint",
     "check_footprint",
     "make_joint",
     "site_curves",
     "wall_angles",
 ]
+
+
+class FaceError(GeometryError):
+    """A tube's face is not its connector's alone, on whatever lattice."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,19 +166,21 @@ def make_joint(
     ------
     InputError
         Directions that do not ascend.
+    FaceError
+        A connector does not own all of its tube's face.
     GeometryError
         The ring is too small for its tubes, or the weave makes a connector that falls
-        apart, whose halves hang together, or that does not own all of its tube's face.
+        apart, or whose halves hang together.
     """
     lattice = make_lattice(edges, weave.ring_ratio, detail.cells, extra)
     at = wall_angles(lattice.edges, weave, keys)
     curves = site_curves(lattice.edges, weave, detail.samples, at)
-    lattice = without_corners(lattice, corners_in_the_way(lattice, curves))
     # From each edge to the wall after it, and from there to the next edge.
     steps = np.column_stack([at, _gaps(lattice.edges) - at])
     computed = range(_period(steps))
     for edge in computed:
         check_footprint(lattice, curves, edge)
+    lattice = without_corners(lattice, corners_in_the_way(lattice, curves))
     far = distances(curves, lattice.nodes, BESIDE)
     labels = far.argmin(axis=0)
     walls = list(wedges(lattice, labels))
@@ -214,7 +222,7 @@ def check_footprint(lattice: Lattice, curves: Sequence[SiteCurve], edge: int) ->
 
     Raises
     ------
-    GeometryError
+    FaceError
         It does not: says what share of it does.
     """
     low, high = np.array([lattice.tube_start, -0.5, -0.5]), np.array([lattice.tube_start, 0.5, 0.5])
@@ -227,4 +235,4 @@ def check_footprint(lattice: Lattice, curves: Sequence[SiteCurve], edge: int) ->
         f"weave {curves[edge].weave.name}: only {share(turned, edge, grid):.1%} of a tube's face "
         "belongs to its own connector; a smaller span or a smaller bend helps"
     )
-    raise GeometryError(msg)
+    raise FaceError(msg)

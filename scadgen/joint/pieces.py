@@ -67,7 +67,7 @@ def halves(
             polygons.append(cut.wall(wedge))
             for facet, start, stop in cut.wall_borders(wedge):
                 sides[facet].append((start, stop))
-    for facet, start, stop in cut.domain_sides(position):
+    for facet, start, stop in cut.domain_sides():
         sides[facet].append((start, stop))
     return _parted(polygons, sides, position, float(lattice.edges[edge]))
 
@@ -118,20 +118,30 @@ class _Cut:
                 ends = self._sided(stop, wedge.sector), self._sided(start, wedge.sector)
                 yield facet, *(ends if wedge.low == self._label else ends[::-1])
 
-    def domain_sides(self, position: dict[Key, Floats]) -> Iterator[tuple[Facet, _Sided, _Sided]]:
+    def domain_sides(self) -> Iterator[tuple[Facet, _Sided, _Sided]]:
         """Those sides of the connector's facets that are edges of the domain or the cut."""
         for axis, index, faces in self._domain_edges():
             ends = self._part_of_edge(axis, index)
             if ends is None:
                 continue
-            line = position[ends[1]] - position[ends[0]]
             for normal, face, cell in faces:
                 facet = self._facet(facet_of_face(self._lattice, normal, face) or SPLIT, cell)
                 if facet:
-                    outward, middle = self._face_frame(normal, face, cell)
-                    inward = _volume(outward, line, middle - position[ends[0]])
-                    start, stop = ends if inward > 0 else ends[::-1]
+                    ahead = self._runs_ahead(axis, index, normal, face, cell)
+                    start, stop = ends if ahead else ends[::-1]
                     yield facet, self._sided(start, cell), self._sided(stop, cell)
+
+    def _runs_ahead(self, axis: int, index: _Index, normal: int, face: _Index, cell: int) -> bool:
+        """Whether a facet's outline runs along a lattice edge as its axis does.
+
+        It does if the way out of the connector, the edge's axis and the way from the edge into
+        the face are a right-handed frame; the lattice's axes are a left-handed one.
+        """
+        out = cell != self._plane if normal == 0 else face[normal] > 0
+        into = 3 - axis - normal
+        inside = cell == index[0] if into == 0 else face[into] == index[into]
+        even = (axis - normal) % 3 == 1
+        return (out == inside) != even
 
     def _part_of_edge(self, axis: int, index: _Index) -> tuple[Key, Key] | None:
         """The ends of that part of a lattice edge that carries the label."""
@@ -164,28 +174,6 @@ class _Cut:
             for j, k in itertools.product(range(radii), (0, heights)):
                 beside = (0, (own, j, min(k, heights - 1)), cell)
                 yield 1, (own, j, k), [beside, (2, (cell, j, k), cell)]
-
-    def _face_frame(self, normal: int, face: _Index, cell: int) -> tuple[Floats, Floats]:
-        """A direction out of the connector through a lattice face, and the face's middle."""
-        i, j, k = face
-        nodes = self._lattice.nodes
-        after = (i + 1) % len(nodes)
-        if normal == 0:
-            middle = nodes[i, j : j + 2, k : k + 2].mean(axis=(0, 1))
-            ahead = np.array([-middle[1], middle[0], 0.0])
-            return (-ahead if cell == self._plane else ahead), middle
-        if normal == 1:
-            middle = nodes[[i, after], j, k : k + 2].mean(axis=(0, 1))
-            out = middle * [1.0, 1.0, 0.0]
-            return (out if j else -out), middle
-        middle = nodes[[i, after], j : j + 2, k].mean(axis=(0, 1))
-        return np.array([0.0, 0.0, 1.0 if k else -1.0]), middle
-
-
-def _volume(first: Floats, second: Floats, third: Floats) -> float:
-    """Volume that three vectors span; for so few numbers faster than by arrays."""
-    (a, b, c), (d, e, f), (g, h, i) = first.tolist(), second.tolist(), third.tolist()
-    return float((b * f - c * e) * g + (c * d - a * f) * h + (a * e - b * d) * i)
 
 
 def _parted(

@@ -14,15 +14,18 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from scadgen.joint.curve import SiteCurve
 from scadgen.joint.lattice import Lattice
 from scadgen.joint.walls import Key
-from scadgen.joint.weave import SiteCurve
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["BESIDE", "distances", "place"]
+__all__ = ["BESIDE", "place"]
 
 #: Newton steps; they converge quadratically from within a cell.
 _STEPS = 5
+
+#: A step smaller than this, in sides, is the last: the next would be its square.
+_STILL = 1e-8
 
 #: How much farther than the nearest curve one may be that has a wall in a cell there, in sides:
 #: two diagonals of the widest cells there are, outside on the smallest ring at `draft`.
@@ -30,36 +33,6 @@ BESIDE = 1.0
 
 #: How far a vertex may move from where it starts, in diameters of its feature.
 _STRAY = 0.5
-
-
-def distances(curves: Sequence[SiteCurve], points: Floats, beyond: float = np.inf) -> Floats:
-    """Distance of points from each curve.
-
-    Parameters
-    ----------
-    curves
-        Site curves.
-    points
-        ``(..., 3) float``, in sides.
-    beyond
-        How much farther than the nearest curve another may be, in sides, for its distance to
-        be wanted: of those that are farther it is a sample's, which is no less.
-
-    Returns
-    -------
-    distances
-        ``(curves, ...) float``, in sides.
-    """
-    flat = points.reshape(-1, 3)
-    if np.isinf(beyond):
-        found = np.stack([curve.distance(flat)[0] for curve in curves])
-    else:
-        found = np.stack([curve.from_sample(flat) for curve in curves])
-        nearest = found.min(axis=0)
-        for curve, far in zip(curves, found, strict=True):
-            wanted = np.flatnonzero(far <= nearest + beyond + curve.between_samples)
-            far[wanted] = curve.distance(flat[wanted])[0]
-    return found.reshape(len(curves), *points.shape[:-1])
 
 
 def place(
@@ -159,16 +132,27 @@ def _meet(
     curves: Sequence[SiteCurve], seen: NDArray[np.bool_], start: Floats, basis: Floats
 ) -> Floats:
     """Points nearest the start, within the basis, equally far from all curves seen."""
-    points = start
-    row = np.arange(len(start))
+    points = start.copy()
     reference = seen.argmax(axis=1)
+    moving = np.arange(len(start))
     for _ in range(_STEPS):
-        found = [curve.distance(points) for curve in curves]
-        far = np.stack([d for d, _ in found], axis=1)
-        slope = np.stack([g for _, g in found], axis=1)
-        excess = np.where(seen, far - far[row, reference][:, None], 0.0)
-        slope = np.where(seen[..., None], slope - slope[row, reference][:, None], 0.0)
-        within = np.einsum("mlx,mdx->mld", slope, basis)
+        far, slope = _seen_distances(curves, points[moving], seen[moving])
+        row, first = np.arange(len(moving)), reference[moving]
+        excess = np.where(seen[moving], far - far[row, first][:, None], 0.0)
+        slope = np.where(seen[moving, :, None], slope - slope[row, first][:, None], 0.0)
+        within = np.einsum("mlx,mdx->mld", slope, basis[moving])
         step = np.einsum("mdl,ml->md", np.linalg.pinv(within, rcond=1e-6), excess)
-        points = points - np.einsum("md,mdx->mx", step, basis)
+        points[moving] -= np.einsum("md,mdx->mx", step, basis[moving])
+        moving = moving[np.abs(step).max(axis=1) > _STILL]
     return points
+
+
+def _seen_distances(
+    curves: Sequence[SiteCurve], points: Floats, seen: NDArray[np.bool_]
+) -> tuple[Floats, Floats]:
+    """Distances from the curves seen, and their gradients; zero from others."""
+    far, slope = np.zeros(seen.shape), np.zeros((*seen.shape, 3))
+    for n, curve in enumerate(curves):
+        rows = np.flatnonzero(seen[:, n])
+        far[rows, n], slope[rows, n] = curve.distance(points[rows])
+    return far, slope

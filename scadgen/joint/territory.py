@@ -12,9 +12,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from scadgen.joint.curve import SiteCurve, distances
 from scadgen.joint.lattice import Lattice
-from scadgen.joint.place import distances
-from scadgen.joint.weave import SiteCurve
 from scadgen.solid.affine import Floats
 
 __all__ = ["arm", "belongs", "share"]
@@ -44,10 +43,11 @@ def belongs(
     """
     middle, extent = ((low + high) / 2)[None], (high - low) / 2
     for _ in range(_HALVINGS):
-        lead = _lead(curves, own, middle)
+        needed = 2 * (margin + float(np.linalg.norm(extent)))
+        lead = _lead(curves, own, middle, needed)
         if (lead <= 2 * margin).any():
             return False
-        middle = middle[lead <= 2 * (margin + float(np.linalg.norm(extent)))]
+        middle = middle[lead <= needed]
         if not len(middle):
             return True
         signs = np.array(np.meshgrid(*([-0.5, 0.5] if e > 0 else [0.0] for e in extent)))
@@ -58,12 +58,12 @@ def belongs(
 
 def share(curves: Sequence[SiteCurve], own: int, points: Floats) -> float:
     """Share of points that are in one cell."""
-    return float((_lead(curves, own, points) > 0).mean())
+    return float((_lead(curves, own, points, 0.0) > 0).mean())
 
 
-def _lead(curves: Sequence[SiteCurve], own: int, points: Floats) -> Floats:
-    """How much nearer points are to their own curve than to any other."""
-    far = distances(curves, points)
+def _lead(curves: Sequence[SiteCurve], own: int, points: Floats, most: float) -> Floats:
+    """How much nearer points are to their own curve than to any other, exact up to the most."""
+    far = distances(curves, points, most)
     return np.asarray(np.delete(far, own, axis=0).min(axis=0) - far[own])
 
 
@@ -96,5 +96,7 @@ def arm(lattice: Lattice, curves: Sequence[SiteCurve], edge: int, walls: Floats)
     nodes = lattice.nodes[near]
     share = np.linspace(0, 1, nodes.shape[1])
     face = np.minimum.outer(np.minimum(share, 1 - share), np.minimum(share, 1 - share))
-    ball = np.minimum(_lead(curves, edge, nodes.reshape(-1, 3)).reshape(nodes.shape[:3]) / 2, face)
+    ball = np.minimum(
+        _lead(curves, edge, nodes.reshape(-1, 3), 1.0).reshape(nodes.shape[:3]) / 2, face
+    )
     return float(2 * ball.max(axis=(1, 2)).min())

@@ -1,7 +1,6 @@
-"""Weaves and the site curves they make.
+"""Weaves: the shapes of site curves, those built in and the one for any joint.
 
-A site curve is the sinusoid that one connector grows around; see ``docs/geometry.md``,
-step 2.  Lengths are in units of the side, angles in radians.
+Lengths are in units of the side, angles in radians; see ``docs/geometry.md``, step 2.
 """
 
 from __future__ import annotations
@@ -9,17 +8,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
-from functools import cached_property
 from types import MappingProxyType
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.spatial import cKDTree
 
 from scadgen.errors import InputError
-from scadgen.solid.affine import Floats
 
-__all__ = ["BUILT_IN", "LIMITS", "SHAPE", "SiteCurve", "Weave", "any_joint", "built_in"]
+__all__ = ["BUILT_IN", "LIMITS", "SHAPE", "Weave", "any_joint", "built_in"]
 
 #: What each weave parameter may be: (low, high).
 LIMITS: Mapping[str, tuple[float, float]] = {
@@ -36,12 +31,6 @@ SHAPE = ("ring_ratio", "span", "amplitude", "bend", "periods")
 
 #: What angles may be off by rounding, in degrees.
 _ROUNDING = 1e-4
-
-#: How gently an arm that followed the ring begins to weave, in sides.
-_GENTLE = 0.25
-
-#: Newton steps to the nearest point; quadratic from a sample's distance, so 1e-12 after 4.
-_STEPS = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,189 +107,6 @@ class Weave:
     def as_dict(self) -> dict[str, float | str]:
         """Name and parameters, as JSON writes them; the stretch only where there is one."""
         return {key: value for key, value in asdict(self).items() if value is not None}
-
-
-class SiteCurve:
-    """One connector's site: a sinusoid on an arc, up on one side and down on the other.
-
-    Parameters
-    ----------
-    weave
-        Its shape.
-    angle
-        Direction of its edge.
-    after, before
-        Angle to the wall counter-clockwise and clockwise; half a gap where it is in the middle.
-    samples
-        Points from which nearest points are sought; they decide which of several
-        nearly equal distances is looked at, not how exact it is.
-    """
-
-    def __init__(
-        self, weave: Weave, angle: float, after: float, before: float, samples: int
-    ) -> None:
-        self.weave = weave
-        self._arguments = (after, before, samples)
-        self._angle = angle
-        gaps = 2 * weave.ring_ratio * np.array([before, after])
-        woven = np.minimum(gaps, gaps.max() if weave.stretch is None else weave.stretch)
-        self._plain, self._reach = (gaps - woven) / 2, weave.span * woven
-        self._rate = np.array(
-            [_way_of(*pair) for pair in zip(self._reach, self._plain, strict=True)]
-        )
-        self._parameters = np.linspace(-1.0, 1.0, samples)
-        self._spacing = 2.0 / (samples - 1)
-        # Sides that differ meet at an angle, which no step towards a nearest point may cross.
-        sides = np.stack([self._reach, self._plain])
-        self._is_smooth = bool(np.allclose(sides[:, 0], sides[:, 1], rtol=0, atol=1e-9))
-        if not self._is_smooth:
-            self._parameters = np.union1d(self._parameters, [0.0])
-        self._tree = cKDTree(self.points(self._parameters))
-
-    def turned(self, angle: float) -> SiteCurve:
-        """The curve turned about the ring's axis."""
-        return SiteCurve(self.weave, self._angle + angle, *self._arguments)
-
-    def points(self, u: Floats) -> Floats:
-        """Points of the curve: ``u`` in [-1, 1], shape ``(...)``, gives ``(..., 3)``."""
-        return self._derivatives(u)[0]
-
-    def _derivatives(self, u: Floats) -> tuple[Floats, Floats, Floats]:
-        """Position, first and second derivative by ``u``, each ``(..., 3)``.
-
-        The woven arm at its own length, carried along the ring by what it starts late.
-        """
-        side = np.where(u >= 0, 1, 0)
-        rate, way = self._rate[side][..., None], u * self._rate[side]
-        length, slope, curve = _delayed(way, self._plain[side])
-        place, first, second = self._woven(length, self._reach[side])
-        radius = self.weave.ring_ratio
-        turn = self._angle + (way - length) / radius
-        if self._plain.any():
-            slope, curve = slope[..., None], curve[..., None]
-            spin, spun = (1 - slope) / radius, -curve / radius
-            second = (
-                spun * _across(place)
-                - spin**2 * place * [1.0, 1.0, 0.0]
-                + 2 * spin * slope * _across(first)
-                + curve * first
-                + slope**2 * second
-            )
-            first = spin * _across(place) + slope * first
-        return _turned(place, turn), _turned(first, turn) * rate, _turned(second, turn) * rate**2
-
-    def _woven(self, length: Floats, reach: Floats) -> tuple[Floats, Floats, Floats]:
-        """An arm that weaves from its edge on: place and derivatives by its length in plan."""
-        weave = self.weave
-        bend = weave.bend / weave.ring_ratio
-        turn = length * bend
-        # (1 - cos t)/b and (sin t)/b written so that a straight curve (b = 0) is no special case.
-        half = np.sinc(turn / (2 * np.pi))
-        x = weave.ring_ratio - 0.5 * length * turn * half**2
-        y = length * np.sinc(turn / np.pi)
-        c, s = np.cos(turn), np.sin(turn)
-        wave = math.pi * weave.periods / reach
-        rise, fall = (
-            weave.amplitude * np.sin(wave * length),
-            weave.amplitude * np.cos(wave * length),
-        )
-        return (
-            np.stack([x, y, rise], axis=-1),
-            np.stack([-s, c, wave * fall], axis=-1),
-            np.stack([-bend * c, -bend * s, -(wave**2) * rise], axis=-1),
-        )
-
-    def distance(self, points: Floats) -> tuple[Floats, Floats]:
-        """Distance from the curve, and its gradient.
-
-        Parameters
-        ----------
-        points
-            ``(k, 3) float``, in sides.
-
-        Returns
-        -------
-        distance
-            ``(k,) float``.
-        gradient
-            ``(k, 3) float``, unit vectors away from the nearest point.
-        """
-        u, low, high = self._around(points)
-        for _ in range(_STEPS):
-            place, first, second = self._derivatives(u)
-            off = place - points
-            slope = np.einsum("ij,ij->i", off, first)
-            curvature = np.einsum("ij,ij->i", first, first) + np.einsum("ij,ij->i", off, second)
-            low, high = np.where(slope < 0, u, low), np.where(slope > 0, u, high)
-            convex = curvature > 0
-            step = u - slope / np.where(convex, curvature, 1.0)
-            u = np.clip(np.where(convex, step, 0.5 * (low + high)), low, high)
-        away = points - self.points(u)
-        distance = np.sqrt(np.einsum("ij,ij->i", away, away))
-        return distance, away / np.maximum(distance, np.finfo(float).tiny)[:, None]
-
-    def from_sample(self, points: Floats) -> Floats:
-        """Distance from the nearest sample, ``(k,)``: above the curve's."""
-        return np.asarray(self._tree.query(points)[0], dtype=np.float64)
-
-    @cached_property
-    def between_samples(self) -> float:
-        """By how much a distance from the nearest sample may be above the curve's, in sides."""
-        samples = np.asarray(self._tree.data)
-        return float(np.linalg.norm(np.diff(samples, axis=0), axis=1).max())
-
-    def _around(self, points: Floats) -> tuple[Floats, Floats, Floats]:
-        """The sample nearest to each point, and between what its nearest point is sought."""
-        _, nearest = self._tree.query(points)
-        u = self._parameters[nearest]
-        low, high = np.maximum(u - self._spacing, -1.0), np.minimum(u + self._spacing, 1.0)
-        if not self._is_smooth:
-            place, after, _ = self._derivatives(u)
-            ahead = np.einsum("ij,ij->i", place - points, after) < 0
-            low = np.where((u > 0) | ((u == 0) & ahead), np.maximum(low, 0.0), low)
-            high = np.where((u < 0) | ((u == 0) & ~ahead), np.minimum(high, 0.0), high)
-        return u, low, high
-
-
-def _across(vector: Floats) -> Floats:
-    """A vector's part in plan, turned by a quarter."""
-    return np.stack([-vector[..., 1], vector[..., 0], np.zeros_like(vector[..., 0])], axis=-1)
-
-
-def _turned(vector: Floats, angle: Floats) -> Floats:
-    """A vector turned about z."""
-    c, s = np.cos(angle), np.sin(angle)
-    x, y = vector[..., 0], vector[..., 1]
-    return np.stack([c * x - s * y, s * x + c * y, vector[..., 2]], axis=-1)
-
-
-def _delayed(way: Floats, plain: Floats) -> tuple[Floats, Floats, Floats]:
-    """A length that starts to grow after a plain one, smoothly and oddly, and its derivatives.
-
-    It is ``way`` less ``plain`` further out, and nearly 0 within.
-    """
-    if not np.any(plain):
-        return way, np.ones_like(way), np.zeros_like(way)
-    after, before = (way + plain) / _GENTLE, (way - plain) / _GENTLE
-    # log cosh, up to a constant that cancels.
-    off = np.logaddexp(after, -after) - np.logaddexp(before, -before)
-    after, before = np.tanh(after), np.tanh(before)
-    return (
-        way - _GENTLE / 2 * off,
-        1 - (after - before) / 2,
-        (after**2 - before**2) / (2 * _GENTLE),
-    )
-
-
-def _way_of(length: float, plain: float) -> float:
-    """The way at which a delayed length is this."""
-    if not plain:
-        return length
-
-    def short(way: float) -> float:
-        return float(_delayed(np.asarray(way), np.asarray(plain))[0]) - length
-
-    return float(brentq(short, 0.0, length + plain + _GENTLE))
 
 
 #: The weaves of regular joints, by number of edges and key style: the tightest that a search

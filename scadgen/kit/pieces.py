@@ -15,16 +15,13 @@ from scadgen.element.squares import Key
 from scadgen.errors import GeometryError, InvariantError, ScadgenError
 from scadgen.joint.joint import (
     DETAILS,
+    FaceError,
     Joint,
-    check_footprint,
     make_joint,
-    site_curves,
-    wall_angles,
 )
-from scadgen.joint.lattice import make_lattice
 from scadgen.joint.pieces import SPLIT
 from scadgen.joint.recede import recede
-from scadgen.joint.surface import half_turn
+from scadgen.joint.surface import Surface, half_turn
 from scadgen.joint.territory import arm, belongs
 from scadgen.joint.weave import Weave
 from scadgen.kit.ranges import WALL
@@ -176,18 +173,14 @@ def best_pieces(
     GeometryError
         The weave makes no sound pieces: says why, of the first lattice.
     """
-    detail = DETAILS[level]
-    probe = make_lattice(directions, weave.ring_ratio, detail.cells)
-    walls = wall_angles(probe.edges, weave, keys)
-    curves = site_curves(probe.edges, weave, detail.samples, walls)
-    for edge in range(len(directions)):
-        check_footprint(probe, curves, edge)
     best: _Tried | None = None
     refusal: ScadgenError | None = None
     for extra in _LATTICES:
         try:
-            made = make_joint(directions, weave, detail, extra, keys)
+            made = make_joint(directions, weave, DETAILS[level], extra, keys)
             found = _tried(made, style, extra, keys, bored=bored)
+        except FaceError:
+            raise
         except (GeometryError, InvariantError) as error:
             refusal = refusal or error
             continue
@@ -209,27 +202,32 @@ def best_pieces(
 def _tried(made: Joint, style: str, extra: int, keys: Sequence[int], *, bored: bool) -> _Tried:
     """The pieces of a joint, and the clearance up to which they are sound."""
     key = _key(made, style, keys, bored=bored)
-    wholes = {
-        id(surface): Piece(surface, recede(surface, ()), _REST) for surface in made.connectors
+    over = {edge: _turned_over(*made.halves[edge]) for edge in keys}
+    wholes = list(dict.fromkeys(made.connectors))
+    split = list(dict.fromkeys(itertools.chain(*over.values())))
+    surfaces = [*((surface, ()) for surface in wholes), *((surface, (SPLIT,)) for surface in split)]
+    piece = {
+        surface: Piece(surface, displacement, _REST)
+        for (surface, _), displacement in zip(surfaces, recede(surfaces), strict=True)
     }
-    halves = {}
-    for edge in keys:
-        first, second = made.halves[edge]
-        over = half_turn(second)
-        own = Piece(first, recede(first, (SPLIT,)), _REST)
-        same = np.array_equal(over.points, first.points)
-        halves[edge] = own, own if same else Piece(over, recede(over, (SPLIT,)), _REST)
+    connectors = tuple(piece[surface] for surface in made.connectors)
+    halves = {edge: (piece[first], piece[second]) for edge, (first, second) in over.items()}
     solids = itertools.chain(
-        (connector(key, piece) for piece in wholes.values()),
-        (half(key, piece) for piece in dict.fromkeys(itertools.chain(*halves.values()))),
+        (connector(key, piece[surface]) for surface in wholes),
+        (half(key, piece[surface]) for surface in split),
     )
     limit = _TRIED
     for solid in solids:
         limit = min(limit, _limit(solid, key))
         if limit < _LEAST:
             break
-    connectors = tuple(wholes[id(surface)] for surface in made.connectors)
     return _Tried(made, key, connectors, halves, math.floor(limit * 1e3) / 1e3, extra)
+
+
+def _turned_over(first: Surface, second: Surface) -> tuple[Surface, Surface]:
+    """Half A, and half B turned over, which is half A where they are alike."""
+    over = half_turn(second)
+    return first, first if np.array_equal(over.points, first.points) else over
 
 
 def _limit(solid: AffineSolid, key: Key) -> float:

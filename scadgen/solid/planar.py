@@ -2,45 +2,25 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 
 from scadgen.errors import InvariantError
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["normal_of_loops", "triangulate"]
+__all__ = ["triangulate"]
+
+#: Outlines of a facet by vertex: counter-clockwise seen from outside, holes clockwise.
+Loops = Sequence[Sequence[int]]
 
 
-def normal_of_loops(points: Floats, loops: Sequence[Sequence[int]]) -> Floats:
-    """Unit normal of a planar facet, by Newell's formula.
-
-    Parameters
-    ----------
-    points
-        ``(v, 3) float``.
-    loops
-        Outlines, counter-clockwise seen from outside, holes clockwise.
-
-    Returns
-    -------
-    normal
-        ``(3,) float``.
-    """
-    total = np.zeros(3)
-    for loop in loops:
-        corners = points[list(loop)] - points[loop[0]]
-        total += np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
-    length = float(np.linalg.norm(total))
-    if length == 0.0:
-        msg = "facet with an area: an outline encloses none"
-        raise InvariantError(msg)
-    return np.asarray(total / length)
-
-
-def triangulate(points: Floats, loops: Sequence[Sequence[int]]) -> Ints:
-    """Constrained Delaunay triangles of a planar facet; no vertex is added.
+def triangulate(points: Floats, facets: Sequence[Loops]) -> list[Ints]:
+    """Constrained Delaunay triangles of planar facets; no vertex is added.
 
     Delaunay triangles, for they leave out the slivers between nearly aligned vertices
     wherever that can be done, and slivers are what turns over when the vertices move.
@@ -49,42 +29,85 @@ def triangulate(points: Floats, loops: Sequence[Sequence[int]]) -> Ints:
     ----------
     points
         ``(v, 3) float``.
-    loops
-        Outlines of the facet by vertex, counter-clockwise seen from outside, holes
+    facets
+        Of each facet its outlines by vertex, counter-clockwise seen from outside, holes
         clockwise.
 
     Returns
     -------
     triangles
-        ``(m, 3) int``, counter-clockwise seen from outside.
+        Of each ``(m, 3) int``, counter-clockwise seen from outside.
 
     Raises
     ------
     InvariantError
-        The outlines cross.
+        Outlines cross, or a facet has no area.
     """
-    normal = normal_of_loops(points, loops)
-    across = np.cross(np.eye(3)[np.argmin(np.abs(normal))], normal)
-    across /= np.linalg.norm(across)
-    plane = np.stack([across, np.cross(normal, across)], axis=1)
-    flat = {
-        v: (x, y)
-        for loop in loops
-        for v, (x, y) in zip(loop, (points[list(loop)] @ plane).tolist(), strict=True)
+    if not facets:
+        return []
+    sizes = [len(loop) for loops in facets for loop in loops]
+    owner = np.repeat(np.arange(len(facets)), [len(loops) for loops in facets])
+    vertices = np.fromiter(itertools.chain(*itertools.chain(*facets)), dtype=np.int64)
+    ring = np.repeat(np.arange(len(sizes)), sizes)
+    flat = _in_plane(points[vertices], ring, owner)
+    shells, of = _polygons(np.asarray(shapely.linearrings(flat, indices=ring)), owner)
+    valid = shapely.is_valid(shells)
+    if not valid.all():
+        msg = f"facet outlines do not cross: {shapely.is_valid_reason(shells[~valid][0])}"
+        raise InvariantError(msg)
+    vertex = {
+        (f, x, y): v
+        for f, (x, y), v in zip(owner[ring].tolist(), flat.tolist(), vertices.tolist(), strict=True)
     }
-    vertex = {place: v for v, place in flat.items()}
-    rings = [shapely.Polygon([flat[v] for v in loop]) for loop in loops]
-    holes = [ring for ring in rings if not shapely.is_ccw(ring.exterior)]
-    found: list[list[int]] = []
-    for shell in rings:
-        if not shapely.is_ccw(shell.exterior):
-            continue
-        inside = [h.exterior for h in holes if shell.contains(h.representative_point())]
-        facet = shapely.Polygon(shell.exterior, inside)
-        if not facet.is_valid or len(vertex) != len(flat):
-            msg = f"facet outlines do not cross: {shapely.is_valid_reason(facet)}"
-            raise InvariantError(msg)
-        pieces = shapely.get_parts(shapely.constrained_delaunay_triangles(facet))
-        corners = shapely.get_coordinates(shapely.orient_polygons(pieces)).reshape(-1, 4, 2)
-        found += [[vertex[x, y] for x, y in three] for three in corners[:, :3].tolist()]
-    return np.array(found, dtype=int).reshape(-1, 3)
+    if len(vertex) != len({*zip(owner[ring].tolist(), vertices.tolist(), strict=True)}):
+        msg = "facet outlines do not cross: two vertices of one are in one place"
+        raise InvariantError(msg)
+    pieces, shell = shapely.get_parts(
+        shapely.constrained_delaunay_triangles(shells), return_index=True
+    )
+    corners = shapely.get_coordinates(pieces).reshape(-1, 4, 2)[:, :3]
+    (a, b), c = corners[:, :2].swapaxes(0, 1), corners[:, 2]
+    ahead = (b - a)[:, 0] * (c - a)[:, 1] > (b - a)[:, 1] * (c - a)[:, 0]
+    corners = np.where(ahead[:, None, None], corners, corners[:, ::-1])
+    facet = of[shell]
+    found = np.array(
+        [
+            [vertex[f, x, y] for x, y in three]
+            for f, three in zip(facet.tolist(), corners.tolist(), strict=True)
+        ],
+        dtype=int,
+    ).reshape(-1, 3)
+    return [found[facet == n] for n in range(len(facets))]
+
+
+def _in_plane(corners: Floats, ring: Ints, owner: Ints) -> Floats:
+    """Corners of rings in their facets' planes, ``(k, 2)``; seen from outside."""
+    first = np.searchsorted(ring, np.arange(len(owner)))
+    after = np.arange(1, len(ring) + 1)
+    after[np.append(first[1:], len(ring)) - 1] = first
+    # Newell's formula, from a corner of the facet's own.
+    origin = corners[first[np.searchsorted(owner, owner)]][ring]
+    spans = np.cross(corners - origin, corners[after] - origin)
+    of = owner[ring]
+    total = np.add.reduceat(spans, np.searchsorted(of, np.arange(of[-1] + 1)))
+    length = np.linalg.norm(total, axis=1)
+    if not length.all():
+        msg = "facet with an area: an outline encloses none"
+        raise InvariantError(msg)
+    normal = total / length[:, None]
+    across = np.cross(np.eye(3)[np.abs(normal).argmin(axis=1)], normal)
+    across /= np.linalg.norm(across, axis=1)[:, None]
+    plane = np.stack([across, np.cross(normal, across)], axis=1)
+    return np.asarray(np.einsum("kji,ki->kj", plane[of], corners))
+
+
+def _polygons(rings: NDArray[Any], owner: Ints) -> tuple[NDArray[Any], Ints]:
+    """Polygons of rings, with those as holes that are clockwise, and the facet of each."""
+    shell = shapely.is_ccw(rings)
+    polygons, of = np.asarray(shapely.polygons(rings[shell])), owner[shell]
+    for hole, facet in zip(rings[~shell], owner[~shell].tolist(), strict=True):
+        point = shapely.Polygon(hole).representative_point()
+        (around,) = np.flatnonzero((of == facet) & shapely.contains(polygons, point))
+        outside = polygons[around]
+        polygons[around] = shapely.Polygon(outside.exterior, [*outside.interiors, hole])
+    return polygons, of

@@ -17,6 +17,8 @@ DECIMALS = 9
 #: Factors of a live parameter in x, y and z.
 Vector = tuple[float, float, float]
 
+_NOTHING: Vector = (0.0, 0.0, 0.0)
+
 
 class Shell:
     """A surface under construction whose vertices are linear in the live parameters."""
@@ -85,21 +87,17 @@ class Shell:
 
     def points(self, vertices: Sequence[int], values: Mapping[str, float]) -> Floats:
         """Some vertices at some live parameters, the others zero; ``(k, 3) float``."""
-        return np.array(
-            [
-                sum(
-                    (values.get(p, 0.0) * np.asarray(f) for p, f in self._rows[v].items()),
-                    np.zeros(3),
-                )
-                for v in vertices
-            ]
-        )
+        rows = [self._rows[v] for v in vertices]
+        total = np.zeros((len(rows), 3))
+        for parameter, value in values.items():
+            total += value * np.array([row.get(parameter, _NOTHING) for row in rows]).reshape(-1, 3)
+        return total
 
     def solid(self, name: str) -> AffineSolid:
         """The finished part."""
         used = {parameter for row in self._rows for parameter in row}
         coefficients = {
-            parameter: np.array([row.get(parameter, (0.0, 0.0, 0.0)) for row in self._rows]).round(
+            parameter: np.array([row.get(parameter, _NOTHING) for row in self._rows]).round(
                 DECIMALS
             )
             for parameter in PARAMETERS

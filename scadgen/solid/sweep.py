@@ -179,10 +179,12 @@ def _edges_meet(motion: _Motion, quads: Ints, t: Floats) -> NDArray[np.bool_]:
 
 def _edges(triangles: Ints, facets: Ints) -> tuple[Ints, Ints]:
     """Edges ``(e, 2)`` of a closed mesh, and the facets ``(e, 2)`` on their two sides."""
-    ends = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
-    edges, where = np.unique(np.sort(ends, axis=1), axis=0, return_inverse=True)
-    order = np.argsort(where.reshape(-1), kind="stable")
-    ordered = where.reshape(-1)[order]
+    ends = np.sort(np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)]), axis=1)
+    count = int(triangles.max()) + 1
+    numbers, where = np.unique(ends @ [count, 1], return_inverse=True)
+    edges = np.column_stack(np.divmod(numbers, count))
+    order = np.argsort(where, kind="stable")
+    ordered = where[order]
     first = np.searchsorted(ordered, np.arange(len(edges)))
     last = np.searchsorted(ordered, np.arange(len(edges)), side="right") - 1
     sides = np.tile(facets, 3)[order]

@@ -1,0 +1,274 @@
+"""Site curves: the sinusoids that connectors grow around, and how far points are from them.
+
+See ``docs/geometry.md``, step 2.  Lengths are in units of the side, angles in radians.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+from scipy.spatial import cKDTree
+
+from scadgen.joint.weave import Weave
+from scadgen.solid.affine import Floats, Ints
+
+__all__ = ["SiteCurve", "distances"]
+
+#: How gently an arm that followed the ring begins to weave, in sides.
+_GENTLE = 0.25
+
+#: Newton steps to the nearest point; quadratic from a sample's distance, so 1e-12 after 4.
+_STEPS = 4
+
+#: A step smaller than this, in a curve's parameter, is the last: the next would be its square.
+_STILL = 1e-8
+
+
+class _Vectors(NamedTuple):
+    """Vectors in space: their part in plan as x + iy, so that turning is a product, and z."""
+
+    plan: NDArray[np.complex128]
+    height: Floats
+
+    def dot(self, other: _Vectors) -> Floats:
+        """Scalar products."""
+        return np.asarray((self.plan.conj() * other.plan).real + self.height * other.height)
+
+    def stacked(self) -> Floats:
+        """Shape ``(..., 3)``."""
+        return np.stack([self.plan.real, self.plan.imag, self.height], axis=-1)
+
+    def rows(self, some: Ints) -> _Vectors:
+        """Some of them."""
+        return _Vectors(self.plan[some], self.height[some])
+
+
+class SiteCurve:
+    """One connector's site: a sinusoid on an arc, up on one side and down on the other.
+
+    Parameters
+    ----------
+    weave
+        Its shape.
+    angle
+        Direction of its edge.
+    after, before
+        Angle to the wall counter-clockwise and clockwise; half a gap where it is in the middle.
+    samples
+        Points from which nearest points are sought; they decide which of several
+        nearly equal distances is looked at, not how exact it is.
+    """
+
+    def __init__(
+        self, weave: Weave, angle: float, after: float, before: float, samples: int
+    ) -> None:
+        self.weave = weave
+        self._arguments = (after, before, samples)
+        self._angle = angle
+        gaps = 2 * weave.ring_ratio * np.array([before, after])
+        woven = np.minimum(gaps, gaps.max() if weave.stretch is None else weave.stretch)
+        self._plain, self._reach = (gaps - woven) / 2, weave.span * woven
+        self._rate = np.array(
+            [_way_of(*pair) for pair in zip(self._reach, self._plain, strict=True)]
+        )
+        self._parameters = np.linspace(-1.0, 1.0, samples)
+        self._spacing = 2.0 / (samples - 1)
+        # Sides that differ meet at an angle, which no step towards a nearest point may cross.
+        sides = np.stack([self._reach, self._plain])
+        self._is_smooth = bool(np.allclose(sides[:, 0], sides[:, 1], rtol=0, atol=1e-9))
+        if not self._is_smooth:
+            self._parameters = np.union1d(self._parameters, [0.0])
+        self._places, self._slopes, _ = self._derivatives(self._parameters)
+        self._tree = cKDTree(self._places.stacked())
+
+    def turned(self, angle: float) -> SiteCurve:
+        """The curve turned about the ring's axis."""
+        return SiteCurve(self.weave, self._angle + angle, *self._arguments)
+
+    def points(self, u: Floats) -> Floats:
+        """Points of the curve: ``u`` in [-1, 1], shape ``(...)``, gives ``(..., 3)``."""
+        return self._derivatives(u)[0].stacked()
+
+    def _derivatives(self, u: Floats) -> tuple[_Vectors, _Vectors, _Vectors]:
+        """Position, first and second derivative by ``u``.
+
+        The woven arm at its own length, carried along the ring by what it starts late.
+        """
+        side = (u >= 0).astype(np.intp)
+        rate = self._rate[side]
+        way = u * rate
+        length, slope, curve = _delayed(way, self._plain[side])
+        place, first, second = self._woven(length, self._reach[side])
+        radius = self.weave.ring_ratio
+        carried = np.exp(1j * (self._angle + (way - length) / radius))
+        spin = 1j * (1 - slope) / radius
+        along, across = slope * rate * carried, spin * rate * carried
+        return (
+            _Vectors(carried * place.plan, place.height),
+            _Vectors(across * place.plan + along * first.plan, slope * rate * first.height),
+            _Vectors(
+                carried
+                * rate**2
+                * (
+                    (spin**2 - 1j * curve / radius) * place.plan
+                    + (2 * spin * slope + curve) * first.plan
+                    + slope**2 * second.plan
+                ),
+                rate**2 * (curve * first.height + slope**2 * second.height),
+            ),
+        )
+
+    def _woven(self, length: Floats, reach: Floats) -> tuple[_Vectors, _Vectors, _Vectors]:
+        """An arm that weaves from its edge on: place and derivatives by its length in plan."""
+        weave = self.weave
+        bend = weave.bend / weave.ring_ratio
+        half = length * bend / 2
+        # (sin t)/b by way of sinc, so that a straight curve (b = 0) is no special case.
+        turned = np.exp(1j * half)
+        wave = math.pi * weave.periods / reach
+        phase = wave * length
+        rise, fall = weave.amplitude * np.sin(phase), weave.amplitude * np.cos(phase)
+        return (
+            _Vectors(weave.ring_ratio + 1j * length * np.sinc(half / np.pi) * turned, rise),
+            _Vectors(1j * turned**2, wave * fall),
+            _Vectors(-bend * turned**2, -(wave**2) * rise),
+        )
+
+    def distance(self, points: Floats) -> tuple[Floats, Floats]:
+        """Distance from the curve, and its gradient.
+
+        Parameters
+        ----------
+        points
+            ``(k, 3) float``, in sides.
+
+        Returns
+        -------
+        distance
+            ``(k,) float``.
+        gradient
+            ``(k, 3) float``, unit vectors away from the nearest point.
+        """
+        distance, away = self._away(points, self.from_sample(points)[1])
+        return distance, away.stacked() / np.maximum(distance, np.finfo(float).tiny)[:, None]
+
+    def from_sample(self, points: Floats) -> tuple[Floats, Ints]:
+        """Distance from the nearest sample, ``(k,)``, above the curve's, and its number."""
+        distance, sample = self._tree.query(points)
+        return np.asarray(distance, dtype=np.float64), np.asarray(sample, dtype=np.int64)
+
+    @cached_property
+    def between_samples(self) -> float:
+        """By how much a distance from the nearest sample may be above the curve's, in sides."""
+        samples = np.asarray(self._tree.data)
+        return float(np.linalg.norm(np.diff(samples, axis=0), axis=1).max())
+
+    def beside(self, points: Floats, sample: Ints) -> Floats:
+        """Distance from the curve, ``(k,)``, of points whose nearest samples are known."""
+        return self._away(points, sample)[0]
+
+    def _away(self, points: Floats, sample: Ints) -> tuple[Floats, _Vectors]:
+        """How far points are from their nearest points of the curve, and in which direction."""
+        target = _Vectors(points[:, 0] + 1j * points[:, 1], points[:, 2])
+        u, low, high = self._around(target, sample)
+        left = np.arange(len(points))
+        for _ in range(_STEPS):
+            place, first, second = self._derivatives(u[left])
+            off = _less(place, target.rows(left))
+            slope, curvature = off.dot(first), first.dot(first) + off.dot(second)
+            low[left] = np.where(slope < 0, u[left], low[left])
+            high[left] = np.where(slope > 0, u[left], high[left])
+            convex = curvature > 0
+            step = u[left] - slope / np.where(convex, curvature, 1.0)
+            halved = 0.5 * (low[left] + high[left])
+            found = np.clip(np.where(convex, step, halved), low[left], high[left])
+            moving = np.abs(found - u[left]) > _STILL
+            u[left] = found
+            left = left[moving]
+        away = _less(target, self._derivatives(u)[0])
+        return np.sqrt(away.dot(away)), away
+
+    def _around(self, points: _Vectors, sample: Ints) -> tuple[Floats, Floats, Floats]:
+        """The sample nearest to each point, and between what its nearest point is sought."""
+        u = self._parameters[sample]
+        low, high = np.maximum(u - self._spacing, -1.0), np.minimum(u + self._spacing, 1.0)
+        if not self._is_smooth:
+            off = _less(self._places.rows(sample), points)
+            ahead = off.dot(self._slopes.rows(sample)) < 0
+            low = np.where((u > 0) | ((u == 0) & ahead), np.maximum(low, 0.0), low)
+            high = np.where((u < 0) | ((u == 0) & ~ahead), np.minimum(high, 0.0), high)
+        return u, low, high
+
+
+def distances(curves: Sequence[SiteCurve], points: Floats, beyond: float = np.inf) -> Floats:
+    """Distance of points from each curve.
+
+    Parameters
+    ----------
+    curves
+        Site curves.
+    points
+        ``(..., 3) float``, in sides.
+    beyond
+        How much farther than the nearest curve another may be, in sides, for its distance to
+        be wanted: of those that are farther it is a sample's, which is no less.
+
+    Returns
+    -------
+    distances
+        ``(curves, ...) float``, in sides.
+    """
+    flat = points.reshape(-1, 3)
+    sampled = [curve.from_sample(flat) for curve in curves]
+    found = np.stack([far for far, _ in sampled])
+    nearest = found.min(axis=0)
+    for curve, far, (_, sample) in zip(curves, found, sampled, strict=True):
+        wanted = np.flatnonzero(far <= nearest + beyond + curve.between_samples)
+        far[wanted] = curve.beside(flat[wanted], sample[wanted])
+    return found.reshape(len(curves), *points.shape[:-1])
+
+
+def _less(first: _Vectors, second: _Vectors) -> _Vectors:
+    """Differences."""
+    return _Vectors(first.plan - second.plan, first.height - second.height)
+
+
+def _delayed(way: Floats, plain: Floats) -> tuple[Floats, Floats, Floats]:
+    """A length that starts to grow after a plain one, smoothly and oddly, and its derivatives.
+
+    It is ``way`` less ``plain`` further out, and nearly 0 within.
+    """
+    if not np.any(plain):
+        return way, np.ones_like(way), np.zeros_like(way)
+    (after, rise), (before, fall) = (
+        _soft_size((way + sign * plain) / _GENTLE) for sign in (1.0, -1.0)
+    )
+    return (
+        way - _GENTLE / 2 * (after - before),
+        1 - (rise - fall) / 2,
+        (rise**2 - fall**2) / (2 * _GENTLE),
+    )
+
+
+def _soft_size(x: Floats) -> tuple[Floats, Floats]:
+    """Log 2 cosh x, which is nearly its size, and its derivative tanh x."""
+    size = np.abs(x)
+    small = np.exp(-2 * size)
+    return size + np.log1p(small), np.sign(x) * (1 - small) / (1 + small)
+
+
+def _way_of(length: float, plain: float) -> float:
+    """The way at which a delayed length is this."""
+    if not plain:
+        return length
+
+    def short(way: float) -> float:
+        return float(_delayed(np.asarray(way), np.asarray(plain))[0]) - length
+
+    return float(brentq(short, 0.0, length + plain + _GENTLE))
