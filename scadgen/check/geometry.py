@@ -17,13 +17,11 @@ from scadgen.joint.joint import (
     DETAILS,
     Detail,
     check_footprint,
+    fitted,
     make_joint,
-    site_curves,
-    wall_angles,
 )
 from scadgen.joint.joint import Joint as MadeJoint
-from scadgen.joint.lattice import Lattice, make_lattice, without_corners
-from scadgen.joint.tidy import corners_in_the_way
+from scadgen.joint.lattice import Lattice
 from scadgen.joint.weave import Weave
 from scadgen.kit.build import Request, build
 from scadgen.kit.model import Joint, Kit
@@ -260,9 +258,7 @@ def joint_of(joint: Joint, detail: Detail) -> MadeJoint:
 
 
 def lattice_of(joint: Joint, detail: Detail) -> tuple[Lattice, tuple[SiteCurve, ...]]:
-    """Its lattice and its site curves alone."""
+    """Its lattice, with all corners, and its site curves alone."""
     weave, extra = weave_of(joint), int(joint.figures["lattice_extra"])
-    lattice = make_lattice(joint.directions, weave.ring_ratio, detail.cells, extra)
-    walls = wall_angles(lattice.edges, weave, joint.keys)
-    curves = site_curves(lattice.edges, weave, detail.samples, walls)
-    return without_corners(lattice, corners_in_the_way(lattice, curves)), curves
+    lattice, curves, _ = fitted(joint.directions, weave, detail, extra, joint.keys)
+    return lattice, curves

@@ -11,9 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from scadgen.interlock.contacts import Contacts, Mesh
-from scadgen.joint.curve import SiteCurve, distances
+from scadgen.joint.curve import SiteCurve
 from scadgen.joint.lattice import Lattice
-from scadgen.joint.place import BESIDE, place
+from scadgen.joint.place import beside_walls, place
 from scadgen.joint.walls import Key
 from scadgen.solid.affine import Ints
 
@@ -42,7 +42,7 @@ def whole_contacts(lattice: Lattice, curves: Sequence[SiteCurve]) -> tuple[list[
     contacts
         Between these; normals are those of the exact walls.
     """
-    far = distances(curves, lattice.nodes, BESIDE)
+    far = beside_walls(lattice, curves)
     keys, pairs = _crossed(far.argmin(axis=0))
     points = place(lattice, curves, far, keys)
     found = [curve.distance(points) for curve in curves]

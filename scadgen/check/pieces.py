@@ -17,9 +17,9 @@ __all__ = ["key_tubes", "pieces", "tubes"]
 
 def pieces(kit: Kit, joint: Joint, values: Mapping[str, float]) -> list[Mesh]:
     """The mesh of each piece of a joint; a fixed peg is the end of its tube."""
-    fixed = _tube(kit, joint, socket=True)
+    fixed, long = _tube(kit, joint, socket=True), _with_room(joint, values)
     return [
-        standing(fixed, place, values)
+        standing(fixed, place, long)
         if place.role == "peg" and kit.key == "fixed"
         else placed(kit, place, values)
         for place in joint.pieces
@@ -28,7 +28,7 @@ def pieces(kit: Kit, joint: Joint, values: Mapping[str, float]) -> list[Mesh]:
 
 def key_tubes(kit: Kit, joint: Joint, values: Mapping[str, float]) -> dict[int, Mesh]:
     """The tube on each key's edge that has one, by the number of the key's half A."""
-    tube = _tube(kit, joint, socket=True)
+    tube, values = _tube(kit, joint, socket=True), _with_room(joint, values)
     return {
         number: standing(tube, replace(place, flip=False), values)
         for number, place in enumerate(joint.pieces)
@@ -38,7 +38,7 @@ def key_tubes(kit: Kit, joint: Joint, values: Mapping[str, float]) -> dict[int, 
 
 def tubes(kit: Kit, joint: Joint, values: Mapping[str, float]) -> dict[int, Mesh]:
     """The tube of each connector that has one, by its number in the joint."""
-    tube = _tube(kit, joint, socket=False)
+    tube, values = _tube(kit, joint, socket=False), _with_room(joint, values)
     return {
         number: standing(tube, place, values)
         for number, place in enumerate(joint.pieces)
@@ -51,8 +51,17 @@ def _is_cap(joint: Joint, turn: float) -> bool:
     return off.index(min(off)) in joint.caps
 
 
+def _with_room(joint: Joint, values: Mapping[str, float]) -> dict[str, float]:
+    """The live parameters with an edge on which two such joints have room.
+
+    The shortest edge of a frame may be between joints that are smaller.
+    """
+    need = 2 * (joint.figures["tube_start_sides"] * values["side"] + values["peg_length"])
+    return {**values, "edge_length": max(values["edge_length"], need)}
+
+
 def _tube(kit: Kit, joint: Joint, *, socket: bool) -> AffineSolid:
-    """A tube as long as an edge, with key ends or with flat ones."""
+    """A tube on an edge, with key ends or with flat ones."""
     figures = joint.figures
     key = Key(
         kit.key,

@@ -206,7 +206,9 @@ class SiteCurve:
         return u, low, high
 
 
-def distances(curves: Sequence[SiteCurve], points: Floats, beyond: float = np.inf) -> Floats:
+def distances(
+    curves: Sequence[SiteCurve], points: Floats, beyond: float | Floats = np.inf
+) -> Floats:
     """Distance of points from each curve.
 
     Parameters
@@ -217,7 +219,8 @@ def distances(curves: Sequence[SiteCurve], points: Floats, beyond: float = np.in
         ``(..., 3) float``, in sides.
     beyond
         How much farther than the nearest curve another may be, in sides, for its distance to
-        be wanted: of those that are farther it is a sample's, which is no less.
+        be wanted, of all points or of each: of those that are farther it is a sample's, which is
+        no less.
 
     Returns
     -------
@@ -227,9 +230,9 @@ def distances(curves: Sequence[SiteCurve], points: Floats, beyond: float = np.in
     flat = points.reshape(-1, 3)
     sampled = [curve.from_sample(flat) for curve in curves]
     found = np.stack([far for far, _ in sampled])
-    nearest = found.min(axis=0)
+    limit = found.min(axis=0) + np.broadcast_to(beyond, points.shape[:-1]).ravel()
     for curve, far, (_, sample) in zip(curves, found, sampled, strict=True):
-        wanted = np.flatnonzero(far <= nearest + beyond + curve.between_samples)
+        wanted = np.flatnonzero(far <= limit + curve.between_samples)
         far[wanted] = curve.beside(flat[wanted], sample[wanted])
     return found.reshape(len(curves), *points.shape[:-1])
 

@@ -9,11 +9,11 @@ from types import MappingProxyType
 import numpy as np
 
 from scadgen.errors import GeometryError
-from scadgen.joint.curve import SiteCurve, distances
+from scadgen.joint.curve import SiteCurve
 from scadgen.joint.fan import fanned
-from scadgen.joint.lattice import Lattice, make_lattice, without_corners
+from scadgen.joint.lattice import Lattice, directions_and_gaps, make_lattice, without_corners
 from scadgen.joint.pieces import SPLIT, halves
-from scadgen.joint.place import BESIDE, place
+from scadgen.joint.place import beside_walls, place
 from scadgen.joint.surface import Surface, half_turn, join, simplify
 from scadgen.joint.territory import belongs, share
 from scadgen.joint.tidy import corners_in_the_way, merge_short_sides
@@ -27,6 +27,7 @@ __all__ = [
     "FaceError",
     "Joint",
     "check_footprint",
+    "fitted",
     "make_joint",
     "site_curves",
     "wall_angles",
@@ -93,14 +94,14 @@ class Joint:
     halves: tuple[tuple[Surface, Surface], ...]
 
 
-def wall_angles(edges: Sequence[float] | Floats, weave: Weave, keys: Collection[int]) -> Floats:
+def wall_angles(edges: Sequence[float], weave: Weave, keys: Collection[int]) -> Floats:
     """Angle from each edge to the wall after it, ``(k,)``.
 
     Where the arms of a weave weave in a stretch, a wall beside a key is as near to it as that
     allows, so that halves come out the same way whatever the gap; between two keys it is beside
     the first.  All others are in the middle of their gaps, as are all walls of other weaves.
     """
-    gaps = _gaps(np.asarray(edges, dtype=float))
+    _, gaps = directions_and_gaps(edges)
     if weave.stretch is None:
         return gaps / 2
     near = np.minimum(weave.stretch / (2 * weave.ring_ratio), gaps / 2)
@@ -109,7 +110,7 @@ def wall_angles(edges: Sequence[float] | Floats, weave: Weave, keys: Collection[
 
 
 def site_curves(
-    edges: Floats, weave: Weave, samples: int, walls: Floats | None = None
+    edges: Sequence[float], weave: Weave, samples: int, walls: Floats | None = None
 ) -> tuple[SiteCurve, ...]:
     """The site curve of each edge.
 
@@ -124,7 +125,7 @@ def site_curves(
     walls
         As `wall_angles` gives them; by default in the middle of the gaps.
     """
-    gaps = _gaps(edges)
+    _, gaps = directions_and_gaps(edges)
     after = gaps / 2 if walls is None else walls
     before = np.roll(gaps - after, 1)
     return tuple(
@@ -133,9 +134,24 @@ def site_curves(
     )
 
 
-def _gaps(edges: Floats) -> Floats:
-    """Angle from each edge to the next."""
-    return np.diff(np.append(edges, edges[0] + 2 * np.pi))
+def fitted(
+    edges: Sequence[float],
+    weave: Weave,
+    detail: Detail,
+    extra: int = 0,
+    keys: Collection[int] = (),
+) -> tuple[Lattice, tuple[SiteCurve, ...], Floats]:
+    """A joint's lattice, with all corners of its outlines, its site curves and its walls' angles.
+
+    The parameters, and what is raised, are as for `make_joint`.
+    """
+    at = wall_angles(edges, weave, keys)
+    woven = None
+    if weave.stretch is not None:
+        half = weave.stretch / (2 * weave.ring_ratio)
+        woven = [(wall - half, wall + half) for wall in at.tolist()]
+    lattice = make_lattice(edges, weave.ring_ratio, detail.cells, extra, woven)
+    return lattice, site_curves(edges, weave, detail.samples, at), at
 
 
 def make_joint(
@@ -172,16 +188,14 @@ def make_joint(
         The ring is too small for its tubes, or the weave makes a connector that falls
         apart, or whose halves hang together.
     """
-    lattice = make_lattice(edges, weave.ring_ratio, detail.cells, extra)
-    at = wall_angles(lattice.edges, weave, keys)
-    curves = site_curves(lattice.edges, weave, detail.samples, at)
+    lattice, curves, at = fitted(edges, weave, detail, extra, keys)
     # From each edge to the wall after it, and from there to the next edge.
-    steps = np.column_stack([at, _gaps(lattice.edges) - at])
+    steps = np.column_stack([at, directions_and_gaps(edges)[1] - at])
     computed = range(_period(steps))
     for edge in computed:
         check_footprint(lattice, curves, edge)
     lattice = without_corners(lattice, corners_in_the_way(lattice, curves))
-    far = distances(curves, lattice.nodes, BESIDE)
+    far = beside_walls(lattice, curves)
     labels = far.argmin(axis=0)
     walls = list(wedges(lattice, labels))
     corners = sorted({corner for wedge in walls for corner in wedge.corners})

@@ -13,6 +13,7 @@ Lengths are in units of the side.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -24,10 +25,13 @@ from numpy.typing import NDArray
 from scadgen.errors import GeometryError, InputError
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["Lattice", "make_lattice", "without_corners"]
+__all__ = ["Lattice", "directions_and_gaps", "make_lattice", "without_corners"]
 
 #: Half the width of the inner flats where there is room, in sides.
 _PAD = 0.36
+
+#: Cells a side where there are no walls.
+_LONG = 2
 
 #: A plane closer to the next than this, in cells, is left out.
 _SLIVER = 0.5
@@ -88,6 +92,14 @@ class Lattice:
         """Half the width of the inner flats."""
         return (self.ring_ratio - 0.5) * math.sin(self._pad_half_angle)
 
+    def longest_edges(self) -> Floats:
+        """Length of the longest edge at the nodes of each plane, ``(planes,)``."""
+        rim = self.nodes[:, -1, 0]
+        ahead = np.linalg.norm(np.roll(rim, -1, axis=0) - rim, axis=1)
+        across = np.linalg.norm(self.nodes[:, 1, 0] - self.nodes[:, 0, 0], axis=1)
+        rise = self.nodes[0, 0, 1, 2] - self.nodes[0, 0, 0, 2]
+        return np.asarray(np.maximum.reduce([ahead, np.roll(ahead, 1), across]).clip(min=rise))
+
     def flat(self, side: int, edge: int) -> int:
         """Number of an edge's flat, inside (0) or outside (1)."""
         return int(self.strips[side, self.edge_planes[edge]])
@@ -104,7 +116,29 @@ class Lattice:
         return area
 
 
-def make_lattice(edges: Sequence[float], ring_ratio: float, cells: int, extra: int = 0) -> Lattice:
+def directions_and_gaps(edges: Sequence[float]) -> tuple[Floats, Floats]:
+    """Directions as an array, and the angle from each to the next.
+
+    Raises
+    ------
+    InputError
+        Fewer than two edges, or directions that do not ascend.
+    """
+    directions = np.asarray(edges, dtype=float)
+    gaps = np.diff(np.append(directions, directions[:1] + 2 * np.pi))
+    if len(directions) < 2 or not (gaps > 0).all() or directions[0] < 0:
+        msg = f"edges {list(edges)}: must be two or more ascending angles in [0, 2 pi)"
+        raise InputError(msg)
+    return directions, gaps
+
+
+def make_lattice(
+    edges: Sequence[float],
+    ring_ratio: float,
+    cells: int,
+    extra: int = 0,
+    woven: Sequence[tuple[float, float]] | None = None,
+) -> Lattice:
     """Fit a lattice to the domain of a joint.
 
     Parameters
@@ -118,6 +152,9 @@ def make_lattice(edges: Sequence[float], ring_ratio: float, cells: int, extra: i
         lattice edge lies on the half-turn axis of a regular joint's walls.
     extra
         Cells to add in each gap; even.
+    woven
+        Angles from each edge between which there are walls in the gap after it; by default all
+        of it.  Beyond them a connector's arm is alone, and cells may be long.
 
     Raises
     ------
@@ -126,11 +163,7 @@ def make_lattice(edges: Sequence[float], ring_ratio: float, cells: int, extra: i
     GeometryError
         Two tubes would overlap where they leave the ring.
     """
-    directions = np.asarray(edges, dtype=float)
-    gaps = np.diff(np.append(directions, directions[:1] + 2 * np.pi))
-    if len(directions) < 2 or not (gaps > 0).all() or directions[0] < 0:
-        msg = f"edges {list(edges)}: must be two or more ascending angles in [0, 2 pi)"
-        raise InputError(msg)
+    directions, gaps = directions_and_gaps(edges)
     flat = math.asin(0.5 / (ring_ratio + 0.5))
     if (gaps <= 2 * flat).any():
         need = 0.5 / math.sin(gaps.min() / 2) - 0.5
@@ -145,15 +178,33 @@ def make_lattice(edges: Sequence[float], ring_ratio: float, cells: int, extra: i
     rise = np.concatenate([np.linspace(0, flat, near + 1), np.linspace(flat, pad, far + 1)[1:]])
     angles: list[Floats] = []
     planes: list[int] = []
-    for edge, gap in zip(directions, gaps, strict=True):
-        between = math.ceil((gap - 2 * pad) * ring_ratio * cells) // 2 * 2 + 1 + extra
+    for number, (edge, gap) in enumerate(zip(directions, gaps, strict=True)):
         planes.append(sum(map(len, angles)))
-        span = np.linspace(pad, gap - pad, between + 1)[1:-1]
+        between = (pad, gap - pad) if woven is None else woven[number]
+        span = _between(pad, gap - pad, between, ring_ratio, cells, extra)
         angles.append(edge + np.concatenate([rise, span, (gap - rise)[:0:-1]]))
     theta = np.concatenate(angles)
     off = np.abs((theta[:, None] - directions + np.pi) % (2 * np.pi) - np.pi).min(axis=1)
     corner = np.stack([off > pad - 1e-9, off > flat - 1e-9])
     return _with_corners(ring_ratio, directions, theta, np.array(planes), corner, cells)
+
+
+def _between(
+    low: float, high: float, woven: tuple[float, float], ring_ratio: float, cells: int, extra: int
+) -> Floats:
+    """Angles of the planes between two flats, these not included."""
+    start, end = max(low, woven[0]), min(high, woven[1])
+    fine = math.ceil((end - start) * ring_ratio * cells) // 2 * 2 + 1 + extra
+    long = ring_ratio * min(cells, _LONG)
+    before, after = (math.ceil(way * long - _SLIVER) for way in (start - low, high - end))
+    stations = [low, start, end, high][before == 0 : 4 - (after == 0)]
+    counts = [count for count in (before, fine, after) if count]
+    return np.concatenate(
+        [
+            np.linspace(a, b, count + 1)[1:]
+            for (a, b), count in zip(itertools.pairwise(stations), counts, strict=True)
+        ]
+    )[:-1]
 
 
 def _pad_half_angle(ring_ratio: float, flat: float, gap: float, cells: int) -> float:

@@ -14,12 +14,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from scadgen.joint.curve import SiteCurve
+from scadgen.joint.curve import SiteCurve, distances
 from scadgen.joint.lattice import Lattice
 from scadgen.joint.walls import Key
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["BESIDE", "place"]
+__all__ = ["beside_walls", "place"]
 
 #: Newton steps; they converge quadratically from within a cell.
 _STEPS = 5
@@ -27,12 +27,23 @@ _STEPS = 5
 #: A step smaller than this, in sides, is the last: the next would be its square.
 _STILL = 1e-8
 
-#: How much farther than the nearest curve one may be that has a wall in a cell there, in sides:
-#: two diagonals of the widest cells there are, outside on the smallest ring at `draft`.
-BESIDE = 1.0
-
 #: How far a vertex may move from where it starts, in diameters of its feature.
 _STRAY = 0.5
+
+
+def beside_walls(lattice: Lattice, curves: Sequence[SiteCurve]) -> Floats:
+    """Distances of the lattice's nodes from the curves, for labels and for `place`.
+
+    Where a wall crosses an edge of the lattice, both curves' distances at both of its ends are
+    wanted.  The difference of two distances changes by at most twice the way along an edge, so
+    that at a node neither is farther than the nearest by more than twice its longest edge.
+
+    Returns
+    -------
+    distances
+        ``(curves, planes, radii, heights) float``, as `distances` gives them.
+    """
+    return distances(curves, lattice.nodes, 2 * lattice.longest_edges()[:, None, None])
 
 
 def place(
@@ -45,7 +56,7 @@ def place(
     lattice, curves
         The joint's lattice and site curves.
     far
-        ``(curves, planes, radii, heights) float``: distance of each node from each curve.
+        ``(curves, planes, radii, heights) float``: as `beside_walls` gives them.
     keys
         The vertices.
 
