@@ -25,7 +25,7 @@ from scadgen.solid.affine import Floats, Ints
 __all__ = ["Openings"]
 
 #: Shares of the fastest opening for which the least motion is sought.
-_SHARES = (0.5, 0.9)
+_SHARES = (0.5, 0.9, 0.2, 0.05)
 
 #: Opening below which nothing opens, in sides a side.
 _SHUT = 1e-6

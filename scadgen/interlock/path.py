@@ -236,15 +236,17 @@ def narrowest(
     body, rest = united(moving), united(fixed)
     lengths = path.lengths(_reach(path, moving))
     ends = np.concatenate([[0.0], np.cumsum(lengths)])
-    gone, worst, at = 0.0, look, path.between()
+    gone, worst, far, at = 0.0, look, look, path.between()
     while True:
         time = np.interp(gone, ends, np.arange(len(ends)))
-        gap = float(body.transform(at(np.array([time]))[0, :3]).min_gap(rest, look))
+        gap = float(body.transform(at(np.array([time]))[0, :3]).min_gap(rest, far))
         worst = min(worst, gap)
         if gap < least:
             return 0.0
         if gone >= ends[-1]:
             return worst
+        # Once the body is off it takes long steps, for which it has to look far.
+        far = 2 * far if gap >= far else max(look, gap)
         gone = min(gone + gap, float(ends[-1]))
 
 

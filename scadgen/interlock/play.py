@@ -7,7 +7,8 @@ a part then moves in a direction is a linear program.  To first order it is prop
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -18,7 +19,10 @@ from scadgen.interlock.path import united
 from scadgen.interlock.program import farthest
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["loosest", "measured"]
+__all__ = ["Loosest", "loosest", "measured"]
+
+#: Directions in which a point may go: along the axes, both ways.
+_DIRECTIONS = np.vstack([np.eye(3), -np.eye(3)])
 
 #: Rows to add at most in a round, for each unknown.
 _ADD = 5
@@ -33,7 +37,28 @@ _MOST, _FINE = 2.0, 2e-3
 _NONE = 1e-6
 
 
-def loosest(assembly: Assembly, points: Floats) -> tuple[float, Floats]:
+class Loosest(NamedTuple):
+    """The farthest that a point moves, per unit of gap.
+
+    Parameters
+    ----------
+    travel
+        How far; infinite where a part is free to go.
+    steps
+        ``(parts, 6) float``: each part's translation and rotation vector about its middle;
+        zeros where the travel is infinite.
+    tip
+        Whose point it is and where it goes: the part, and the number of the direction.
+    """
+
+    travel: float
+    steps: Floats
+    tip: tuple[int, int]
+
+
+def loosest(
+    assembly: Assembly, points: Floats, tips: Iterable[tuple[int, int]] | None = None
+) -> Loosest:
     """Farthest that a point of any free part moves along an axis, per unit of gap, and how.
 
     Parameters
@@ -42,32 +67,28 @@ def loosest(assembly: Assembly, points: Floats) -> tuple[float, Floats]:
         The assembly; it should be locked.
     points
         ``(parts, 3) float``: a point that moves with each part.
-
-    Returns
-    -------
-    travel
-        Infinite where a part is free to go.
-    steps
-        ``(parts, 6) float``: each part's translation and rotation vector about its middle,
-        per unit of gap; zeros where the travel is infinite.
+    tips
+        Parts and numbers of directions among which it is sought; by default all.
 
     Raises
     ------
     ToolError
         The solver gives no answer: its status.
     """
-    farthest_yet, steps = 0.0, np.zeros((len(assembly.middles), 6))
+    none = np.zeros((len(assembly.middles), 6))
+    best = Loosest(0.0, none, (assembly.free[0], 0))
     chosen = extreme_rows(assembly)
-    for part, direction in itertools.product(assembly.free, np.vstack([np.eye(3), -np.eye(3)])):
-        goal = _goal(assembly, part, points[part], direction)
+    for part, number in tips or itertools.product(assembly.free, range(len(_DIRECTIONS))):
+        goal = _goal(assembly, part, points[part], _DIRECTIONS[number])
         x, chosen = _farthest(assembly, goal, chosen)
         if x is None:
-            return np.inf, np.zeros_like(steps)
-        if goal @ x > farthest_yet:
-            farthest_yet = float(goal @ x)
+            return Loosest(np.inf, none, (part, number))
+        if goal @ x > best.travel:
+            steps = none.copy()
             steps[list(assembly.free)] = x.reshape(-1, 6)
-    steps[:, 3:] /= assembly.sizes[:, None]
-    return farthest_yet, steps
+            steps[:, 3:] /= assembly.sizes[:, None]
+            best = Loosest(float(goal @ x), steps, (part, number))
+    return best
 
 
 def _goal(assembly: Assembly, part: int, point: Floats, direction: Floats) -> Floats:

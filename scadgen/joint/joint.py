@@ -99,14 +99,17 @@ def wall_angles(edges: Sequence[float], weave: Weave, keys: Collection[int]) -> 
 
     Where the arms of a weave weave in a stretch, a wall beside a key is as near to it as that
     allows, so that halves come out the same way whatever the gap; between two keys it is beside
-    the first.  All others are in the middle of their gaps, as are all walls of other weaves.
+    the first.  So it is in a gap of more than half a turn: connectors that part at a wall far
+    across the ring would swing into each other.  All others are in the middle of their gaps, as
+    are all walls of other weaves.
     """
     _, gaps = directions_and_gaps(edges)
     if weave.stretch is None:
         return gaps / 2
     near = np.minimum(weave.stretch / (2 * weave.ring_ratio), gaps / 2)
     here = np.isin(np.arange(len(gaps)), list(keys))
-    return np.where(here, near, np.where(np.roll(here, -1), gaps - near, gaps / 2))
+    after = np.roll(here, -1)
+    return np.where(here | (~after & (gaps > np.pi)), near, np.where(after, gaps - near, gaps / 2))
 
 
 def site_curves(
