@@ -2,36 +2,24 @@
 
 A vertex at the rim often lacks some edges of an inner one.  Caps, which are connectors without
 a tube, stand for them, so that both are the same joint.
-
-An element with whole connectors at both ends cannot close a loop of such elements: the edges
-whose ends are both whole are a forest.  Every other edge has a key at one end at least, and
-every vertex has one, or it could not be put together.
 """
 
 from __future__ import annotations
 
-import itertools
-import math
-from collections import Counter
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components, maximum_bipartite_matching
+from scipy.sparse.csgraph import connected_components
 
 from scadgen.frame.graph import Frame
+from scadgen.frame.keys import ANGLE, Places, choose_keys
 from scadgen.frame.sameness import Sameness
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["Kind", "Kinds", "Shape", "choose_kinds"]
-
-#: Directions as near as this are the same, in radians; twice what sameness allows a joint.
-_ANGLE = 2e-4
-
-#: Choices of the same key for all joints of a shape that are tried at most.
-_CHOICES = 2000
 
 #: Directions of a joint at the end of a lone edge: its own, and two caps.
 _LONE = np.array([0.0, 2 * np.pi / 3, 4 * np.pi / 3])
@@ -141,15 +129,44 @@ def choose_kinds(frame: Frame, same: Sameness, *, rim: bool = True) -> Kinds:
     )
     shape_of = np.array([used.index(host.shape) for host in hosts])[same.joint_of]
     turn = same.turn - np.array([host.turn for host in hosts])[same.joint_of]
-    places = (frame.slots - same.shift[frame.edges]) % frame.degree[frame.edges]
+    place = (frame.slots - same.shift[frame.edges]) % frame.degree[frame.edges]
     slots = np.array(
         [
-            [hosts[same.joint_of[v]].slots[place] for v, place in zip(*pair, strict=True)]
-            for pair in zip(frame.edges, places, strict=True)
+            [hosts[same.joint_of[v]].slots[n] for v, n in zip(*pair, strict=True)]
+            for pair in zip(frame.edges, place, strict=True)
         ]
     )
-    keys = _Keys(frame, [shapes[n] for n in shape_of], slots, turn).chosen()
-    return _gathered(shapes, shape_of, turn, frame, slots, keys)
+    turn, slots = _least_turned(shapes, shape_of, turn, frame, slots)
+
+    def gathered(keys: Sequence[Collection[int]]) -> Kinds:
+        return _gathered(shapes, shape_of, turn, frame, slots, keys)
+
+    counts = [(len(shape.directions), shape.period) for shape in shapes]
+    directions = [shape.directions for shape in shapes]
+    places = Places(frame, shape_of, counts, slots, turn, directions)
+    return gathered(choose_keys(places, lambda keys: _parts(gathered(keys), frame, same)))
+
+
+def _least_turned(
+    shapes: Sequence[Shape], shape_of: Ints, turn: Floats, frame: Frame, slots: Ints
+) -> tuple[Floats, Ints]:
+    """Turns and slots of the joints, each turned as little as its shape's symmetry allows."""
+    symmetry = np.array([shape.symmetry for shape in shapes])[shape_of]
+    count = np.array([len(shape.directions) for shape in shapes])[shape_of]
+    step = 2 * np.pi / symmetry
+    steps = np.floor((turn + ANGLE) / step).astype(np.int64)
+    shift = (steps * (count // symmetry))[frame.edges]
+    return turn - steps * step, (slots + shift) % count[frame.edges]
+
+
+def _parts(kinds: Kinds, frame: Frame, same: Sameness) -> int:
+    """How many kinds of joints and of edge elements there are."""
+    kind = kinds.kind_of[frame.edges]
+    period = np.array([kinds.period(n) for n in range(len(kinds.kinds))])
+    ends = kind * (kinds.slots.max() + 1) + kinds.slots % period[kind]
+    length = np.array([edge.length for edge in same.edges])[same.edge_of]
+    elements = np.column_stack([np.sort(ends, axis=1), length])
+    return len(kinds.kinds) + len(np.unique(elements, axis=0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -203,10 +220,13 @@ def _hosts(same: Sameness, kept: Collection[int]) -> list[_Host]:
         larger = [n for n, other in enumerate(directions) if len(other) > len(own)]
         larger = [] if number in kept else larger
         larger.sort(key=lambda n: (-len(same.joints[n].vertices), n))
-        fits = ((n, _fit(own, directions[n])) for n in larger)
-        fitting = next(((n, fit) for n, fit in fits if fit), None)
+        fits = ((n, _fits(own, directions[n])) for n in larger)
+        fitting = next(((n, found) for n, found in fits if found), None)
         if fitting:
-            host = _Host(fitting[0], *fitting[1])
+            host = max(
+                (_Host(fitting[0], *fit) for fit in fitting[1]),
+                key=lambda host: _turned_alike(same, number, host),
+            )
         elif len(own) == 1:
             host = _Host(-1, 0.0, (0,))
         found.append(host)
@@ -222,118 +242,23 @@ def _root(hosts: Sequence[_Host], host: _Host) -> _Host:
     return host
 
 
-def _fit(own: Floats, other: Floats) -> tuple[float, tuple[int, ...]] | None:
-    """Turn and slots that put some directions among others, if any do."""
+def _fits(own: Floats, other: Floats) -> list[tuple[float, tuple[int, ...]]]:
+    """Turns and slots that put some directions among others."""
+    found = []
     for start in other:
         off = (own[:, None] + start - other + np.pi) % (2 * np.pi) - np.pi
         slots = np.abs(off).argmin(axis=1)
-        if (np.abs(off[np.arange(len(own)), slots]) < _ANGLE).all():
-            return float(start), tuple(slots.tolist())
-    return None
+        if (np.abs(off[np.arange(len(own)), slots]) < ANGLE).all():
+            found.append((float(start), tuple(slots.tolist())))
+    return found
 
 
-class _Keys:
-    """The choice of keys: for each vertex, slots of its shape.
-
-    Edges of one direction are treated alike, for then joints are too.
-    """
-
-    def __init__(self, frame: Frame, shapes: Sequence[Shape], slots: Ints, turn: Floats) -> None:
-        self._frame, self._shapes, self._slots, self._turn = frame, shapes, slots, turn
-        self._keys: list[set[int]] = [set() for _ in shapes]
-
-    def chosen(self) -> list[set[int]]:
-        """The slots that have keys at each vertex."""
-        alike = self._alike()
-        if alike is not None:
-            return alike
-        split = np.flatnonzero(~_forest(self._frame))
-        for edge, end in zip(split.tolist(), _ends(self._frame, split), strict=True):
-            self._keys[int(self._frame.edges[edge, end])].add(int(self._slots[edge, end]))
-        usual = Counter(
-            (id(self._shapes[v]), self._direction(v, slot))
-            for v, keys in enumerate(self._keys)
-            for slot in keys
-        )
-        for vertex, keys in enumerate(self._keys):
-            if not keys:
-                keys.add(self._best(vertex, usual))
-        return self._keys
-
-    def _alike(self) -> list[set[int]] | None:
-        """One key that is the same in all joints of a shape, if that is enough."""
-        shapes = {id(shape): shape for shape in self._shapes}
-        if math.prod(shape.period for shape in shapes.values()) > _CHOICES:
-            return None
-        for slots in itertools.product(*(range(shape.period) for shape in shapes.values())):
-            slot_of = dict(zip(shapes, slots, strict=True))
-            keys = [{slot_of[id(shape)]} for shape in self._shapes]
-            if self._is_enough(keys):
-                return keys
-        return None
-
-    def _is_enough(self, keys: Sequence[set[int]]) -> bool:
-        """Whether the edges that no key is on close no loop."""
-        edges = self._frame.edges
-        whole = [
-            not any(int(slot) in keys[v] for v, slot in zip(*pair, strict=True))
-            for pair in zip(edges, self._slots, strict=True)
-        ]
-        return _is_forest(edges[whole], len(self._shapes))
-
-    def _direction(self, vertex: int, slot: int) -> int:
-        """Direction of a slot at a vertex, in steps that are coarse enough to be the same."""
-        angle = self._turn[vertex] + self._shapes[vertex].directions[slot]
-        return round(float(angle % (2 * np.pi)) / (4 * _ANGLE)) % round(np.pi / (2 * _ANGLE))
-
-    def _best(self, vertex: int, usual: Counter[tuple[int, int]]) -> int:
-        """The slot for a lone key: as at most others; else of a cap; else the last."""
-        slots = range(len(self._shapes[vertex].directions))
-        ends = np.argwhere(self._frame.edges == vertex)
-        taken = {int(self._slots[edge, end]) for edge, end in ends}
-        return max(
-            slots,
-            key=lambda slot: (
-                usual[id(self._shapes[vertex]), self._direction(vertex, slot)],
-                slot not in taken,
-                slot,
-            ),
-        )
-
-
-def _forest(frame: Frame) -> NDArray[np.bool_]:
-    """Edges with whole connectors at both ends: all of a direction, while they close no loop."""
-    steps = frame.vertices[frame.edges[:, 1]] - frame.vertices[frame.edges[:, 0]]
-    angle = np.arctan2(steps[:, 1], steps[:, 0]) % np.pi
-    direction = np.round(angle / (4 * _ANGLE)).astype(np.int64) % round(np.pi / (4 * _ANGLE))
-    whole = np.zeros(len(frame.edges), dtype=bool)
-    for value in np.unique(direction):
-        tried = whole | (direction == value)
-        if _is_forest(frame.edges[tried], len(frame.vertices)):
-            whole = tried
-    return whole
-
-
-def _ends(frame: Frame, split: Ints) -> list[int]:
-    """At which end each of these edges has its key: one a vertex, as far as that goes.
-
-    The others have theirs at the upper end.
-    """
-    count = len(split)
-    rows, columns = np.repeat(np.arange(count), 2), frame.edges[split].ravel()
-    choice = coo_array((np.ones(2 * count), (rows, columns)), shape=(count, len(frame.vertices)))
-    vertex = maximum_bipartite_matching(choice.tocsr(), perm_type="column")
-    return [
-        int(frame.edges[edge, 0] != v if v >= 0 else 1)
-        for edge, v in zip(split.tolist(), vertex.tolist(), strict=True)
-    ]
-
-
-def _is_forest(edges: Ints, count: int) -> bool:
-    """Whether edges close no loop."""
-    graph = coo_array((np.ones(len(edges)), edges.T), shape=(count, count))
-    parts, _ = connected_components(graph, directed=False)
-    return parts == count - len(edges)
+def _turned_alike(same: Sameness, number: int, host: _Host) -> int:
+    """How many joints of a class are turned as one of their host's class is."""
+    step = 2 * np.pi / same.joints[host.shape].symmetry
+    own = same.turn[same.joint_of == number] - host.turn
+    off = (own[:, None] - same.turn[same.joint_of == host.shape] + step / 2) % step - step / 2
+    return int((np.abs(off) < ANGLE).any(axis=1).sum())
 
 
 def _gathered(
@@ -342,7 +267,7 @@ def _gathered(
     turn: Floats,
     frame: Frame,
     slots: Ints,
-    keys: Sequence[set[int]],
+    keys: Sequence[Collection[int]],
 ) -> Kinds:
     """Turn each joint so that alike keys are in the same slots, and number the kinds."""
     turn, slots = turn.copy(), slots.copy()
