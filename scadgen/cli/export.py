@@ -36,16 +36,36 @@ def export(
     from scadgen.emit.mesh import mesh_bytes, write_atomic
     from scadgen.kit.store import load
 
+    kind = _kind(kind, output)
     kit = load(folder)
     if part not in kit.parts:
         msg = f"part = {part!r}: must be one of {', '.join(kit.parts)}"
         raise InputError(msg)
     solid = kit.parts[part]
     points = solid.points(settings(kit, changes))
-    write_atomic(
-        output, mesh_bytes(points, solid.triangles, (kind or output.suffix.lstrip(".")).lower())
-    )
+    write_atomic(output, mesh_bytes(points, solid.triangles, kind))
     click.echo(f"{click.format_filename(output)}: {part}, {len(solid.triangles)} triangles")
+
+
+def _kind(kind: str | None, output: Path) -> str:
+    """The kind of file to write: what was asked for, or what the output's ending says.
+
+    Raises
+    ------
+    InputError
+        They are two kinds.
+    """
+    from scadgen.emit.mesh import FORMATS
+
+    ending = output.suffix.lstrip(".").lower()
+    wanted = (kind or ending).lower()
+    if ending != wanted and {ending, wanted} <= {*FORMATS}:
+        msg = (
+            f"format = {kind!r}: {str(output)!r} is {ending} by its ending; leave --format out, "
+            f"or name a file that ends in .{wanted}"
+        )
+        raise InputError(msg)
+    return wanted
 
 
 def settings(kit: Kit, changes: tuple[str, ...]) -> dict[str, float]:
