@@ -138,7 +138,7 @@ def test_what_cannot_be_built_is_refused_with_its_place():
         build(request(near))
     with pytest.raises(InputError, match="side = 3 mm: must be 5 to 100 mm"):
         build(request(make_frame("fork", *FORK), values={"side": 3.0}))
-    with pytest.raises(InputError, match="key = 'fixed': must be one of loose"):
+    with pytest.raises(InputError, match="key = 'fixed': must be loose, so that each joint"):
         Request("any", "fixed", 0, 0, graph=near)
 
 

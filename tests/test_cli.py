@@ -327,7 +327,7 @@ WEAVES = {
 BAD_KITS = [
     ("heptagonal", (), "frame 'heptagonal': must be a file that ends in .dxf, "),
     ("", (), "frame '': must be a file that ends in .dxf, "),
-    ("ladder", ("--key", "fixed"), "key = 'fixed': must be one of loose"),
+    ("ladder", ("--key", "fixed"), "key = 'fixed': must be loose, so that each joint"),
     ("ladder", ("--rim", "round"), "rim = 'round': must be one of caps, open"),
     ("ladder", ("--weave", "4-loose"), "weave 4-loose: each joint of this frame has one of its"),
     ("ladder", ("--radius", "9"), "frame ladder: no option --radius; it has "),

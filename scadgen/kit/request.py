@@ -85,7 +85,7 @@ class Request:
         """Refuse names that do not exist."""
         for name, value, known in (
             ("frame", self.frame, VALENCE if self.graph is None else (self.frame,)),
-            ("key", self.key, KEYS if self.graph is None else ("loose",)),
+            ("key", self.key, KEYS),
             ("detail", self.detail, DETAILS),
             ("rim", self.rim, RIMS),
         ):
@@ -100,6 +100,13 @@ class Request:
             if not 0 <= length <= _LONGEST:
                 msg = f"{name} = {length:g} mm: must be a number from 0 to {_LONGEST:g}"
                 raise InputError(msg)
+        if self.graph is not None and self.key != "loose":
+            grids = " and ".join(VALENCE)
+            msg = (
+                f"key = {self.key!r}: must be loose, so that each joint closes with all its tubes "
+                f"in place; only {grids} frames of rows and columns have fixed pegs"
+            )
+            raise InputError(msg)
         if self.graph is None:
             LAYOUTS[self.frame](self.rows, self.columns, self.key)
         elif self.weave:
