@@ -9,6 +9,7 @@ from itertools import pairwise
 from typing import Any
 
 from scadgen import __version__
+from scadgen.emit.picture import MOST_JOINTS
 from scadgen.emit.scad_parameters import Parameter, label, limits, sections
 from scadgen.emit.scad_text import literal
 from scadgen.emit.templates import environment
@@ -68,6 +69,7 @@ def readme(kit: Kit) -> str:
         coupon_step=settings["coupon_step"].value,
         live=[_live(kit, settings[name]) for name in settings if name in kit.values],
         most_cells=MOST_CELLS,
+        most_joints=MOST_JOINTS,
         proved=kit.proved,
         command=_fenced(kit.command),
     )
