@@ -442,6 +442,21 @@ def test_halves_and_connectors_have_no_number(drawn, tmp_path):
         assert check_stl(tmp_path / "part.stl") == pytest.approx(plain, rel=1e-5)
 
 
+def test_render_draws_numbers_where_they_are_asked_for(run, folder):
+    solid = kit("hexagonal").parts["basic"]
+    plain = volume(solid.points(kit("hexagonal").values), solid.triangles)
+    for height in (0.0, 0.4):
+        words = ("--part", "basic", "--set", f"number_height={height}")
+        assert run("render", folder, *words)[0] == 0
+        found = check_stl(folder / "stl" / "basic.stl")
+        assert found == pytest.approx(plain + count(1) * 1.44 * height, abs=0.01)
+    code, out, err = run("render", folder, "--set", "number_height=2")
+    assert (code, out) == (2, "")
+    assert err.startswith("scadgen: number_height = 2 mm: must be -1 to 1 mm (deeper")
+    _, _, err = run("render", folder, "--set", "numbers=2")
+    assert re.search(r"NAME one of side, .*, number_height\n$", err)
+
+
 @pytest.mark.parametrize("number", [12345, 67890])
 def test_every_digit_is_one_sound_surface(number, drawn, tmp_path):
     made, path = drawn

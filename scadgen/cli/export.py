@@ -8,6 +8,7 @@ import click
 
 from scadgen.errors import InputError
 from scadgen.kit.model import Kit
+from scadgen.solid.affine import Range
 
 __all__ = ["export", "settings"]
 
@@ -68,8 +69,19 @@ def _kind(kind: str | None, output: Path) -> str:
     return wanted
 
 
-def settings(kit: Kit, changes: tuple[str, ...]) -> dict[str, float]:
+def settings(
+    kit: Kit, changes: tuple[str, ...], others: tuple[Range, ...] = ()
+) -> dict[str, float]:
     """A kit's live parameters with some changed, checked against their ranges.
+
+    Parameters
+    ----------
+    kit
+        The kit.
+    changes
+        What was typed.
+    others
+        Ranges of what can be set too, and is 0 if it is not.
 
     Raises
     ------
@@ -78,7 +90,7 @@ def settings(kit: Kit, changes: tuple[str, ...]) -> dict[str, float]:
     """
     from scadgen.kit.ranges import check_values
 
-    values = dict(kit.values)
+    values = dict(kit.values) | {other.parameter: 0.0 for other in others}
     for change in changes:
         name, equals, text = change.partition("=")
         if not equals or name not in values:
@@ -89,5 +101,5 @@ def settings(kit: Kit, changes: tuple[str, ...]) -> dict[str, float]:
         except ValueError as error:
             msg = f"--set {change}: {text!r} is not a number of mm"
             raise InputError(msg) from error
-    check_values(kit.ranges, values)
+    check_values([*kit.ranges, *others], values)
     return values
