@@ -10,6 +10,7 @@ from kits import bounds, once
 from scadgen.check.geometry import closed, footprint, gaps, partition, same
 from scadgen.check.locking import joint_locks
 from scadgen.emit.placing import placing
+from scadgen.emit.readme import readme
 from scadgen.emit.scad import scad
 from scadgen.emit.scad_parameters import views
 from scadgen.errors import GeometryError, InputError
@@ -160,3 +161,17 @@ def test_an_edge_that_is_too_short_is_named_with_the_side_that_would_do(values):
         made = build(request(frame, resizable=False, values={**values, "side": own}))
         low, _ = bounds(made, "edge_length", made.values)
         assert low <= made.values["edge_length"] < low + 0.3
+
+
+def test_pegs_of_wider_rings_are_of_one_shape_and_told_so():
+    # Gaps of 60 and of 90 degrees: rings of 4.05 and of 2.7 sides.
+    ends = [[0, 0], [300, 0], [150, 260], [300, 300]]
+    frame = make_frame("two", ends, [[0, 1], [0, 2], [1, 3]])
+    made = build(request(frame, resizable=False, rim="open"))
+    pegs = [solid for name, solid in made.parts.items() if name.startswith("peg_")]
+    first, *others = (peg.points(made.values) for peg in pegs)
+    for other in others:
+        assert other - other.min(axis=0) == pytest.approx(first - first.min(axis=0), abs=1e-9)
+    assert len({peg.points(made.values)[:, 0].min() for peg in pegs}) == len(pegs) > 1
+    names = ", ".join(f"`{peg.name}`" for peg in pegs)
+    assert f"{names} are pegs of one shape" in readme(made)

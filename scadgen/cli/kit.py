@@ -95,8 +95,9 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
 @click.option(
     "--weave",
     metavar="NAME|FILE",
-    help="A built-in weave, or a JSON file with ring_ratio, span, amplitude, bend and periods."
-    "  [default: the one for the joint's edges and the key; other frames: by each joint's angles]",
+    help="A built-in weave, or a JSON file with ring_ratio, span, amplitude, bend, periods and, if "
+    "wanted, stretch.  [default: the one for the joint's edges and the key; other frames: by each "
+    "joint's angles]",
 )
 @_lengths
 @source_options(without=("rows", "columns", "edge_length"))

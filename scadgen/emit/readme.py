@@ -58,6 +58,7 @@ def readme(kit: Kit) -> str:
         material=kit.material,
         density=DENSITIES[kit.material],
         sliced=kit.slicing and kit.slicing.how,
+        pegs=[line.part for line in needed if line.part.startswith("peg_")],
         others=[f"`{name}`" for name in kit.parts if name not in asked],
         joints=[_joint(kit, one) for one in kit.joints],
         grid=kit.rows > 0,
