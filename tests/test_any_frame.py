@@ -5,11 +5,12 @@ import re
 
 import numpy as np
 import pytest
-from kits import once
+from kits import bounds, once
 
 from scadgen.check.geometry import closed, footprint, gaps, partition, same
 from scadgen.check.locking import joint_locks
 from scadgen.emit.placing import placing
+from scadgen.emit.readme import readme
 from scadgen.emit.scad import scad
 from scadgen.emit.scad_parameters import views
 from scadgen.errors import GeometryError, InputError
@@ -136,7 +137,41 @@ def test_what_cannot_be_built_is_refused_with_its_place():
     near = make_frame("near", [[0, 0], [200, 0], [199, 20]], [[0, 1], [0, 2]])
     with pytest.raises(InputError, match=r"vertex 0 at \(0, 0\), angles 5\.\d+, .*at least 25"):
         build(request(near))
-    with pytest.raises(GeometryError, match=r"edge \d+ from .* too short for its two joints"):
-        build(request(make_frame("fork", *FORK), resizable=False, values={"side": 30.0}))
-    with pytest.raises(InputError, match="key = 'fixed': must be one of loose"):
+    with pytest.raises(InputError, match="side = 3 mm: must be 5 to 100 mm"):
+        build(request(make_frame("fork", *FORK), values={"side": 3.0}))
+    with pytest.raises(InputError, match="key = 'fixed': must be loose, so that each joint"):
         Request("any", "fixed", 0, 0, graph=near)
+
+
+@pytest.mark.parametrize("values", [{}, {"peg_length": 15.0}, {"clearance": 0.4}], ids=str)
+def test_an_edge_that_is_too_short_is_named_with_the_side_that_would_do(values):
+    bent = make_frame("bent", [[0, 0], [70, 0], [70, 200], [300, 200]], [[0, 1], [1, 2], [2, 3]])
+    with pytest.raises(GeometryError) as error:
+        build(request(bent, resizable=False, values={**values, "side": 12.0}))
+    said = re.fullmatch(
+        r"edge 0 from vertex 0 at \(0, 0\) to vertex 1 at \(70, 0\), 70 mm long, is ([\d.]+) mm "
+        r"too short for its two joints with a side of 12 mm; "
+        r"a side of ([\d.]+) mm or a frame ([\d.]+) times as large would do",
+        str(error.value),
+    )
+    missing, side, scale = map(float, said.groups())
+    assert scale == pytest.approx((70 + missing) / 70, abs=1e-3)
+    for own, times in ((side, 1.0), (12.0, scale)):
+        frame = make_frame("bent", bent.vertices * times, bent.edges)
+        made = build(request(frame, resizable=False, values={**values, "side": own}))
+        low, _ = bounds(made, "edge_length", made.values)
+        assert low <= made.values["edge_length"] < low + 0.3
+
+
+def test_pegs_of_wider_rings_are_of_one_shape_and_told_so():
+    # Gaps of 60 and of 90 degrees: rings of 4.05 and of 2.7 sides.
+    ends = [[0, 0], [300, 0], [150, 260], [300, 300]]
+    frame = make_frame("two", ends, [[0, 1], [0, 2], [1, 3]])
+    made = build(request(frame, resizable=False, rim="open"))
+    pegs = [solid for name, solid in made.parts.items() if name.startswith("peg_")]
+    first, *others = (peg.points(made.values) for peg in pegs)
+    for other in others:
+        assert other - other.min(axis=0) == pytest.approx(first - first.min(axis=0), abs=1e-9)
+    assert len({peg.points(made.values)[:, 0].min() for peg in pegs}) == len(pegs) > 1
+    names = ", ".join(f"`{peg.name}`" for peg in pegs)
+    assert f"{names} are pegs of one shape" in readme(made)

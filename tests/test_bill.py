@@ -7,6 +7,7 @@ import math
 import re
 import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from kits import kit, tee
@@ -254,6 +255,68 @@ def test_what_is_kept_is_in_the_kit_and_nothing_else_changes(run, folder, stand_
     assert "1 h 40 min" in run("bill", folder)[1]
 
 
+def contents(folder):
+    return {path.name: path.is_dir() or path.read_bytes() for path in folder.iterdir()}
+
+
+def test_a_bill_is_kept_where_the_kit_is_named_by_its_file(run, folder, stand_in, monkeypatch):
+    stand_in()
+    monkeypatch.chdir(folder)
+    assert run("bill", "kit.json", "--keep")[0] == 0
+    assert load(folder).slicing.seconds["half"] == 5991
+    assert all(result.good for result in unchanged(load(folder), folder))
+
+
+def test_a_bill_that_cannot_be_kept_is_refused_before_anything_is_sliced(run, folder, stand_in):
+    called = stand_in()
+    copied = shutil.copy(folder / "kit.json", folder / "copy.json")
+    (folder / "parts.csv").unlink()
+    (folder / "parts.csv").mkdir()
+    before = contents(folder)
+    for place, reason in (
+        (folder, "parts.csv': it is not a file"),
+        (copied, "copy.json': name a kit's folder, or the kit.json in it"),
+    ):
+        code, out, err = run("bill", place, "--keep")
+        assert (code, out, len(err.splitlines())) == (2, "", 1)
+        assert reason in err
+    assert contents(folder) == before
+    assert not called.exists()
+
+
+@pytest.mark.parametrize("missing", [None, "parts.csv"])
+@pytest.mark.parametrize(
+    ("end", "status"), [(OSError(28, "No space left"), 2), (KeyboardInterrupt, 130)]
+)
+def test_a_bill_is_kept_in_all_files_or_in_none(
+    end, status, missing, run, folder, stand_in, monkeypatch
+):
+    stand_in()
+    if missing:
+        (folder / missing).unlink()
+    before, replace_file, calls = contents(folder), Path.replace, []
+
+    def replaced(path, target):
+        calls.append(target)
+        if len(calls) == 3:
+            raise end
+        return replace_file(path, target)
+
+    monkeypatch.setattr(Path, "replace", replaced)
+    assert run("bill", folder, "--keep")[0] == status
+    assert len(calls) > 3
+    assert contents(folder) == before
+
+
+def test_a_kit_of_which_nothing_is_placed_has_an_empty_bill(run, stand_in, tmp_path):
+    called = stand_in()
+    (tmp_path / "kit.json").write_text(dumps(replace(tee(), placements=())))
+    code, out, err = run("bill", tmp_path)
+    assert (code, err) == (0, "")
+    assert out.splitlines()[1:] == ["0 pieces, without spares: 0 g of PLA printed solid"]
+    assert not called.exists()
+
+
 @pytest.mark.parametrize(
     ("words", "reason"),
     [
@@ -377,6 +440,21 @@ def test_halves_and_connectors_have_no_number(drawn, tmp_path):
         solid = made.parts[part]
         plain = volume(solid.points(made.values), solid.triangles)
         assert check_stl(tmp_path / "part.stl") == pytest.approx(plain, rel=1e-5)
+
+
+def test_render_draws_numbers_where_they_are_asked_for(run, folder):
+    solid = kit("hexagonal").parts["basic"]
+    plain = volume(solid.points(kit("hexagonal").values), solid.triangles)
+    for height in (0.0, 0.4):
+        words = ("--part", "basic", "--set", f"number_height={height}")
+        assert run("render", folder, *words)[0] == 0
+        found = check_stl(folder / "stl" / "basic.stl")
+        assert found == pytest.approx(plain + count(1) * 1.44 * height, abs=0.01)
+    code, out, err = run("render", folder, "--set", "number_height=2")
+    assert (code, out) == (2, "")
+    assert err.startswith("scadgen: number_height = 2 mm: must be -1 to 1 mm (deeper")
+    _, _, err = run("render", folder, "--set", "numbers=2")
+    assert re.search(r"NAME one of side, .*, number_height\n$", err)
 
 
 @pytest.mark.parametrize("number", [12345, 67890])

@@ -225,10 +225,11 @@ def test_export_is_read_back_with_the_right_volume(kind, run, folder, tmp_path):
 
 
 def test_export_takes_the_format_from_an_option(run, folder, tmp_path):
-    for name, words in (("a.stl", ()), ("b", ("--format", "stl")), ("c.obj", ("--format", "stl"))):
+    stl = ("--format", "stl")
+    for name, words in (("a.stl", ()), ("b", stl), ("c.STL", stl), ("d.v2", stl)):
         assert run("export", folder, "--part", "half", *words, "-o", tmp_path / name)[0] == 0
-    assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "b").read_bytes()
-    assert (tmp_path / "a.stl").read_bytes() == (tmp_path / "c.obj").read_bytes()
+    whole = (tmp_path / "a.stl").read_bytes()
+    assert {(tmp_path / name).read_bytes() for name in ("b", "c.STL", "d.v2")} == {whole}
 
 
 def test_render_draws_the_parts_and_views_that_are_asked_for(run, folder):
@@ -326,7 +327,7 @@ WEAVES = {
 BAD_KITS = [
     ("heptagonal", (), "frame 'heptagonal': must be a file that ends in .dxf, "),
     ("", (), "frame '': must be a file that ends in .dxf, "),
-    ("ladder", ("--key", "fixed"), "key = 'fixed': must be one of loose"),
+    ("ladder", ("--key", "fixed"), "key = 'fixed': must be loose, so that each joint"),
     ("ladder", ("--rim", "round"), "rim = 'round': must be one of caps, open"),
     ("ladder", ("--weave", "4-loose"), "weave 4-loose: each joint of this frame has one of its"),
     ("ladder", ("--radius", "9"), "frame ladder: no option --radius; it has "),
@@ -499,6 +500,7 @@ def test_a_drawing_or_an_export_that_cannot_be_is_refused(
         ("half.xyz", (), "'xyz'; stl, 3mf, obj, glb work"),
         ("half", (), "''; stl, 3mf, obj, glb work"),
         ("half.stl", ("--format", "step"), "'step'; stl, 3mf, obj, glb work"),
+        ("half.3mf", ("--format", "stl"), "half.3mf' is 3mf by its ending; leave --format out"),
         ("nowhere/half.stl", (), "nowhere/half.stl': No such file or directory"),
         ("folder.stl", (), "it is not a file"),
     ],

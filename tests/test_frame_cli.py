@@ -1,6 +1,7 @@
 """``scadgen frame`` on named frames and on files as somebody might draw them."""
 
 import json
+import math
 import re
 from pathlib import Path
 
@@ -9,7 +10,6 @@ import numpy as np
 import pytest
 from defusedxml import ElementTree
 
-from scadgen.check.frame import rings
 from scadgen.cli.frame_report import SIDES
 from scadgen.cli.main import cli, main
 from scadgen.emit.frame_picture import frame_svg, joint_name
@@ -17,6 +17,7 @@ from scadgen.frame.catalogue import ALIASES, NAMES, OPTIONS, named
 from scadgen.frame.graph import make_frame
 from scadgen.frame.sameness import sameness
 from scadgen.joint.weave import BUILT_IN
+from scadgen.kit.build import Request, build
 from scadgen.readers.read import read
 
 ROOT = Path(__file__).parent.parent
@@ -81,36 +82,78 @@ def test_a_ladder_by_hand(said):
 
 
 def test_a_side_that_is_too_large_is_told_with_what_is_missing(run, said):
-    # R = 1.5: two joints and half a side of tube are 2 sqrt(3.75) + 0.5 = 4.373 sides.
+    # R = 1.5: two joints, half a side of tube, and a peg that reaches into it by 0.35 sides are
+    # 2 sqrt(3.75) + 0.85 = 4.723 sides, and three clearances of 0.2.
     words = ("ring", "--edge-length", 40, "--ring-ratio", 1.5)
-    assert said(*words)["largest_side"] == pytest.approx(40 / 4.37298, abs=1e-4)
-    assert said(*words, "--side", 9)["in_the_way"] == []
+    assert said(*words)["largest_side"] == pytest.approx(39.4 / 4.72298, abs=1e-4)
+    assert said(*words, "--side", 8.3)["in_the_way"] == []
     ring = said(*words, "--side", 10, code=1)
     (edge,) = ring["kinds_of_edges"]
-    assert edge["missing"] == pytest.approx(3.7298, abs=1e-4)
+    # Pegs are rounded down to 0.1.
+    assert 7.73 < edge["missing"] <= 47.83 - 40
     code, out, _ = run(*words, "--side", 10)
     assert code == 1
-    assert "edge 1: 40 mm is 3.73 mm too short for its two joints, from " in out
+    short = f"{edge['missing']:.4g}"
+    assert f"edge 1: 40 mm is {short} mm too short for its two joints, from " in out
     assert " (and 5 more)\n" in out
-    assert out.endswith("sides of 9.147 mm or a frame 1.094 times as large would do\n")
+    assert out.endswith("; a side of 8.342 mm or a frame 1.195 times as large would do\n")
 
 
-def test_what_is_said_of_a_hexagonal_frame_is_what_its_kit_says():
+def test_a_side_below_those_that_print_is_not_advised(run):
+    code, out, _ = run("ring", "--edge-length", 20, "--side", 6)
+    assert code == 1
+    least = re.search(
+        r"too small for sides of 6 mm; sides under 5 mm do not print; with 5 mm a frame "
+        r"([\d.]+) times as large would do\n$",
+        out,
+    )
+    assert run("ring", "--edge-length", 20 * float(least[1]), "--side", 5)[0] == 0
+    assert run("ring", "--edge-length", 20 * float(least[1]) - 0.1, "--side", 5)[0] == 1
+
+
+def test_what_is_said_of_a_hexagonal_frame_is_what_its_kit_says(said):
     kit = kits.kit("hexagonal")
     (side,) = (r for r in kit.ranges if r.parameter == "side")
     assert (side.low(kit.values), side.high(kit.values)) == SIDES
     length = next(r for r in kit.ranges if r.parameter == "edge_length")
-    least = length.low({**kit.values, "side": 7.0, "clearance": 0.0})
-    frame = named("hexagonal", edge_length=least, radius=4 * least)
-    build = rings(frame, sameness(frame))
-    inner = [k for k, joint in enumerate(build.same.joints) if len(joint.directions) == 3]
-    assert set(build.rings[inner]) == {BUILT_IN["3-fixed"].ring_ratio}
-    assert build.largest_side == pytest.approx(7.0)
-    assert not build.missing(7.0).any()
-    assert build.missing(7.01).any()
+    least = length.low({**kit.values, "side": 7.0})
+    frame = said("hexagonal", "--edge-length", least, "--rows", 3)
+    assert {j["ring_ratio"] for j in frame["kinds_of_joints"]} == {BUILT_IN["3-fixed"].ring_ratio}
+    assert frame["largest_side"] == pytest.approx(7.0)
+    assert said("hexagonal", "--edge-length", least, "--side", 6.99)["in_the_way"] == []
+    assert said("hexagonal", "--edge-length", least, "--side", 7.01, code=1)["in_the_way"]
 
 
-def test_angles_that_no_ring_holds_and_loose_ends_are_told(run, said, tmp_path):
+@pytest.mark.parametrize("name", ["hexagonal", "triangular", "cairo"])
+def test_what_is_said_of_other_frames_is_what_their_kits_say(name, said, capsys):
+    # As large as in examples: no longer the frame of a grid's kit.
+    words = (name, "--radius", 100, "--edge-length", 60)
+    frame = said(*words)
+    largest = frame["largest_side"]
+    assert said(*words, "--side", largest)["in_the_way"] == []
+    with pytest.raises(SystemExit) as ended:
+        main(["kit", *map(str, words), "--side", f"{largest + 0.05}"])
+    assert ended.value.code == 2
+    refusal = re.search(r" a side of ([\d.]+) mm or a frame ", capsys.readouterr().err)
+    assert float(refusal[1]) == pytest.approx(largest, abs=1e-3)
+
+
+def test_rings_are_those_of_the_kit_and_so_are_the_sides_that_fit(said, tmp_path):
+    path = tmp_path / "tee.json"
+    graph = {"vertices": [[0, 0], [-90, 0], [90, 0], [0, 90]], "edges": [[0, 1], [0, 2], [0, 3]]}
+    path.write_text(json.dumps(graph))
+    tee, largest = kits.tee(), said(path)["largest_side"]
+    kit_rings = {joint.weave["ring_ratio"] for joint in tee.joints}
+    assert {joint["ring_ratio"] for joint in said(path)["kinds_of_joints"]} == kit_rings
+    graph = read(path).frame
+    within = math.floor(1000 * largest) / 1000
+    made = build(Request("tee", "loose", 0, 0, "draft", values={"side": within}, graph=graph))
+    low, _ = kits.bounds(made, "edge_length", made.values)
+    # All that is left is what a peg is rounded down by.
+    assert 90 - 0.11 < low <= 90
+
+
+def test_angles_that_no_ring_holds_are_told_and_loose_ends_get_caps(run, said, tmp_path):
     path = tmp_path / "fan.svg"
     # 1 in 20 is 2.862 degrees: R > 1 / (2 sin 1.431) - 1/2 = 19.52; 2 asin(1 / 17) = 6.745.
     path.write_text(
@@ -119,9 +162,12 @@ def test_angles_that_no_ring_holds_and_loose_ends_are_told(run, said, tmp_path):
     )
     fan = said(path, "--side", 10, code=1)
     assert fan["largest_side"] is None
-    loose, narrow = fan["in_the_way"][:2]
-    assert loose.startswith("joint A: has one edge, at (0, 0) (and 1 more)")
-    assert narrow.startswith("joint B: edges 2.862 degrees apart, at (200, 10), need a ring ratio")
+    assert fan["in_the_way"][0] == (
+        "joint B at (200, 10): edges 2.862 degrees apart: must be at least 25, or no ring is wide "
+        "enough"
+    )
+    assert not [line for line in fan["in_the_way"] if "joint A" in line]
+    narrow = said(path, "--ring-ratio", 10)["in_the_way"][0]
     assert "over 19.52; at most 10 works, for 5.459 degrees and more" in narrow
     code, out, _ = run(path)
     assert code == 0
@@ -132,7 +178,7 @@ def test_edges_that_nearly_lie_on_each_other_are_told(said, tmp_path):
     path = tmp_path / "sliver.json"
     sliver = {"vertices": [[0, 0], [300, 0], [300, 0.05]], "edges": [[0, 1], [1, 2], [2, 0]]}
     path.write_text(json.dumps(sliver))
-    assert "edges 0.009549 degrees apart, at (0, 0)" in said(path)["in_the_way"][0]
+    assert "at (0, 0): edges 0.009549 degrees apart: " in said(path)["in_the_way"][0]
 
 
 def test_repairs_of_a_drawing_are_told(said, run, sketch):

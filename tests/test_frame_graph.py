@@ -100,7 +100,11 @@ def test_components_are_numbered_by_their_first_vertex():
             [[0, 1], [2, 3]],
             r"vertex 2 at \(4, 0\) lies on edge 0",
         ),
-        ([[0, 0], [9, 0], [4, -1], [4, 9]], [[0, 1], [2, 3]], r"edges 0 and 1 cross, between"),
+        (
+            [[0, 0], [9, 0], [4, -1], [4, 9]],
+            [[0, 1], [2, 3]],
+            r"edges 0 and 1 cross at \(4, 0\): a",
+        ),
         ([[0, 0], [9, 0], [5, 0]], [[0, 1], [0, 2]], r"vertex 2 at \(5, 0\) lies on edge 0"),
     ],
 )

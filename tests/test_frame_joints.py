@@ -7,11 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from scadgen.errors import GeometryError, InputError
+from scadgen.errors import GeometryError
 from scadgen.frame.catalogue import named
 from scadgen.frame.graph import make_frame
 from scadgen.frame.joints import (
-    check_lengths,
     check_ring_ratios,
     least_gap,
     least_ring_ratio,
@@ -83,27 +82,10 @@ def test_a_loose_end_is_named():
         check_ring_ratios(frame, 2.0)
 
 
-def test_an_edge_that_is_too_short_is_named_with_what_is_missing():
+def test_the_least_scale_has_room_for_joints_and_rest():
     # R = 1.5: X0 = sqrt(3.75) = 1.936; two of them and a side of rest are 4.873 sides.
     frame = named("rectangular", width=60.0, height=40.0, rows=1, columns=1)
-    check_lengths(frame, 8.2, 1.5, rest=1.0)
-    with pytest.raises(GeometryError) as error:
-        check_lengths(frame, 10.0, 1.5, rest=1.0)
-    assert str(error.value) == (
-        "edge 1 from (0, 0) to (0, 40), 40 mm long, is 8.73 mm too short for its two joints "
-        "(and 1 more); a side of 8.208 mm or a frame 1.219 times as large would do"
-    )
     assert least_scale(frame, 10.0, 1.5, rest=1.0) == pytest.approx(48.7298 / 40)
-
-
-def test_each_vertex_may_have_a_ring_of_its_own():
-    frame = named("strip", triangles=1, edge_length=30.0)
-    check_lengths(frame, 10.0, [0.9, 0.9, 0.9])
-    with pytest.raises(GeometryError, match="too short"):
-        check_lengths(frame, 10.0, [0.9, 0.9, 1.9])
-
-
-@pytest.mark.parametrize("side", [0, -1, math.nan, math.inf])
-def test_a_side_is_a_length(side):
-    with pytest.raises(InputError, match="side = "):
-        check_lengths(named("square"), side, 1.5)
+    strip = named("strip", triangles=1, edge_length=30.0)
+    own = least_scale(strip, 10.0, [0.9, 0.9, 1.9])
+    assert own == pytest.approx(10 * (2.4**2 - 0.25) ** 0.5 / 30 + 10 * (1.4**2 - 0.25) ** 0.5 / 30)

@@ -9,6 +9,7 @@ from kits import kit, proved_kit
 from PIL import Image
 from stub_kit import stub_kit
 
+from scadgen.emit.letters import written
 from scadgen.emit.picture import (
     COLOURS,
     assembly_picture,
@@ -17,7 +18,9 @@ from scadgen.emit.picture import (
     parts_picture,
     preview,
 )
+from scadgen.emit.readme import readme
 from scadgen.errors import InputError
+from scadgen.frame.sameness import joint_name
 
 PAPER = (250, 250, 248)
 SMALL = (320, 240)
@@ -133,6 +136,52 @@ def test_assembly_shows_each_step_with_what_comes_in():
     top, bottom = image[:300], image[300:]
     assert not shows(top, "peg")
     assert shows(bottom, "peg")
+
+
+def several(made, count):
+    """A kit with its joint as so many kinds."""
+    (one,) = made.joints
+    return replace(made, joints=tuple(replace(one, name=joint_name(n)) for n in range(count)))
+
+
+@pytest.mark.parametrize(("count", "shown"), [(5, 5), (7, 7), (16, 16), (30, 16)])
+def test_every_kind_of_joint_is_shown_up_to_a_limit(count, shown):
+    image = pixels(joint_picture(several(stub_kit(), count), size=(800, 600)))
+    # Each has one letter above it, of dots that touch.
+    alone = blobs(pixels(joint_picture(stub_kit(), size=SMALL)))
+    assert blobs(image) == (alone + 1) * shown
+    assert preview(several(stub_kit(), shown)) == preview(several(stub_kit(), count))
+    assert ("show the first 16 of" in readme(several(stub_kit(), count))) == (count > shown)
+
+
+def test_kinds_of_joints_are_named_where_there_are_several():
+    first, second = several(stub_kit(), 2).joints
+    same, other = (replace(stub_kit(), joints=(first, replace(second, name=n))) for n in "BC")
+    assert preview(several(stub_kit(), 2)) == preview(same) != preview(other)
+    assert joint_picture(same) != joint_picture(other)
+
+
+def test_each_kind_of_joint_has_its_steps_in_a_row():
+    made = proved_kit("hexagonal")
+    image = pixels(assembly_picture(several(made, 3), size=(900, 600)))
+    assert image.shape == (3 * 240, 900, 3)
+    for third in np.array_split(image, 3):
+        for role in ("half_a", "half_b", "peg", "cap"):
+            assert shows(third, role)
+    assert pixels(assembly_picture(several(made, 30))).shape[0] == 16 * 240
+
+
+def test_letters_are_dots_that_are_read_from_the_front():
+    right, up = np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.6, 0.8])
+    points, triangles = written("L1", right, up)
+    flat = np.column_stack([points @ right, points @ up])
+    assert np.ptp(flat, axis=0) == pytest.approx([7 / 5, 1.0])
+    # An L has seven dots, a 1 eight: each a square of a fifth.
+    a, b, c = (flat[triangles[:, n]] for n in range(3))
+    area = ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+    assert (area > 0).all()
+    assert area.sum() == pytest.approx(15 / 25)
+    assert len(written("", right, up)[1]) == 0
 
 
 def test_an_unchecked_kit_has_no_assembly_to_show():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kits import KINDS, kit, named
+from kits import KINDS, kit, named, proved_kit
 
 from scadgen.errors import InputError, KitError
 from scadgen.kit.store import FORMAT, VERSION, dumps, load, loads, summary
@@ -155,6 +155,25 @@ def test_a_kit_edited_into_nonsense_is_refused_in_one_line(edit):
         loads(json.dumps(edit()))
     assert "\n" not in str(error.value)
     assert len(str(error.value)) < 400
+
+
+WAYS = {
+    "no ways": (list.clear, "half, half, connector, connector, peg come apart"),
+    "the last way missing": (list.pop, "ways: there is none by which connector, connector come"),
+    "the first way missing": (lambda ways: ways.pop(0), "by which connector, peg come apart"),
+    "a way twice": (lambda ways: ways.append(ways[0]), "'the peg comes out' moves pieces that"),
+    "a way of no piece": (lambda ways: ways[0].update(moving=[99]), "moves pieces that are not"),
+}
+
+
+@pytest.mark.parametrize(("edit", "reason"), WAYS.values(), ids=WAYS)
+def test_a_proved_kit_without_all_its_ways_is_refused(edit, reason):
+    whole = json.loads(dumps(proved_kit("hexagonal")))
+    assert loads(json.dumps(whole)).proved
+    edit(whole["joints"][0]["ways"])
+    with pytest.raises(KitError, match=reason) as error:
+        loads(json.dumps(whole))
+    assert "\n" not in str(error.value)
 
 
 def test_endless_nesting_is_refused():

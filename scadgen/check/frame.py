@@ -9,25 +9,25 @@ from functools import cached_property
 
 import numpy as np
 
+from scadgen.errors import InputError
 from scadgen.frame.graph import Frame
-from scadgen.frame.joints import least_gap, least_scale, ring_ratios, tube_start
+from scadgen.frame.joints import least_gap, least_ring_ratio, tube_start
+from scadgen.frame.kinds import choose_kinds
 from scadgen.frame.planarity import where
 from scadgen.frame.sameness import Sameness, joint_name
-from scadgen.joint.weave import BUILT_IN, LIMITS
+from scadgen.joint.weave import LIMITS, any_joint
+from scadgen.kit.room import Room, reaches, room
 from scadgen.solid.affine import Floats
 
 __all__ = ["Build", "rings"]
 
-#: Shortest tube between two joints, in sides; as in a kit.
-_TUBE = 0.5
-
-#: An edge is too short if more than this is missing, in mm: rounding, far below a vertex's.
-_ROUNDING = 1e-9
+#: Angles as near as this are the same, in radians: rounding.
+_SAME = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
 class Build:
-    """A frame with a ring for each kind of joint; clearance is not counted.
+    """A frame with a ring for each kind of joint.
 
     Parameters
     ----------
@@ -38,32 +38,37 @@ class Build:
     least, rings
         Of each kind of joint, ``(k,) float``: the ring ratio at which its tubes touch, and
         the one that it is built with.
-    most
-        Largest ring ratio that it may be built with.
+    refused
+        Of each kind of joint, why it cannot be made; None for one that can, or that is made
+        like another.
+    room
+        What joints need of the edges.
     """
 
     frame: Frame
     same: Sameness
     least: Floats
     rings: Floats
-    most: float
+    refused: tuple[str | None, ...]
+    room: Room
 
     @cached_property
     def unfit(self) -> tuple[str, ...]:
         """Kinds of joints that cannot be made, whatever the side, a line each."""
-        return tuple(self._unfit())
+        return tuple(
+            f"joint {joint_name(kind)} at {self._place(kind)}: {reason}"
+            for kind, reason in enumerate(self.refused)
+            if reason
+        )
 
     @cached_property
     def largest_side(self) -> float | None:
         """Largest side with which all edges are long enough, in mm; None with unfit joints."""
-        ring = self.rings[self.same.joint_of]
-        return None if self.unfit else 1 / least_scale(self.frame, 1.0, ring, _TUBE)
+        return None if self.unfit else max(self.room.largest_side(), 0.0)
 
     def missing(self, side: float) -> Floats:
         """What each edge is too short by at this side: ``(m,) float``, at least 0, in mm."""
-        start = tube_start(self.rings[self.same.joint_of])[self.frame.edges].sum(axis=1)
-        missing = side * (start + _TUBE) - self.frame.lengths
-        return np.where(missing > _ROUNDING, missing, 0.0)
+        return self.room.missing(side)
 
     def too_short(self, side: float) -> Iterator[str]:
         """Kinds of edges that are too short at this side, a line each, the worst first."""
@@ -79,25 +84,17 @@ class Build:
                 f"{_more(int(np.count_nonzero(missing[edges])))}"
             )
 
-    def _unfit(self) -> Iterator[str]:
-        for kind, (joint, least) in enumerate(zip(self.same.joints, self.least, strict=True)):
-            if len(joint.directions) > 1 and least < self.most:
-                continue
-            narrowest = min(joint.vertices, key=lambda v: self.frame.gaps(v).min())
-            at = where(self.frame.vertices[narrowest]) + _more(len(joint.vertices))
-            if len(joint.directions) < 2:
-                yield f"joint {joint_name(kind)}: has one edge, at {at}; a joint needs two"
-            else:
-                gap = float(self.frame.gaps(narrowest).min())
-                yield (
-                    f"joint {joint_name(kind)}: edges {math.degrees(gap):.4g} degrees apart, at "
-                    f"{at}, need a ring ratio over {least:.4g}; at most {self.most:g} works, for "
-                    f"{math.degrees(least_gap(self.most)):.4g} degrees and more"
-                )
+    def _place(self, kind: int) -> str:
+        """Where the narrowest joint of a kind stands."""
+        vertices = self.same.joints[kind].vertices
+        narrowest = min(vertices, key=lambda v: self.frame.gaps(v).min())
+        return where(self.frame.vertices[narrowest]) + _more(len(vertices))
 
 
-def rings(frame: Frame, same: Sameness, ring_ratio: float | None = None) -> Build:
-    """Give each kind of joint a ring.
+def rings(
+    frame: Frame, same: Sameness, ring_ratio: float | None = None, *, fixed: bool = False
+) -> Build:
+    """Give each kind of joint a ring, as a kit of the frame does.
 
     Parameters
     ----------
@@ -106,18 +103,49 @@ def rings(frame: Frame, same: Sameness, ring_ratio: float | None = None) -> Buil
     same
         Its kinds.
     ring_ratio
-        Of all joints; without one each has that of the built-in weave for its number of
-        edges, or as much more as its angles need.
+        Of all joints; without one each has that of the weave for its angles, those to caps
+        included.
+    fixed
+        Whether pegs are fixed, which need no room on edges; else they are loose.
     """
-    need = ring_ratios(frame)
-    least = np.array([need[joint.vertices].max() for joint in same.joints])
-    if ring_ratio is not None:
-        return Build(frame, same, least, np.full(len(least), ring_ratio), ring_ratio)
-    known = [int(name.removesuffix("-fixed")) for name in BUILT_IN if name.endswith("-fixed")]
-    counts = np.clip([len(joint.directions) for joint in same.joints], min(known), max(known))
-    usual = np.array([BUILT_IN[f"{count}-fixed"].ring_ratio for count in counts])
-    most = LIMITS["ring_ratio"][1]
-    return Build(frame, same, least, np.minimum(np.maximum(least, usual), most), most)
+    kinds = choose_kinds(frame, same)
+    shapes = [kinds.shape(number) for number in range(len(kinds.kinds))]
+    found = [_ring(float(shape.gaps.min()), ring_ratio) for shape in shapes]
+    reach = [
+        (float(tube_start(ring)), ring - 0.5) if reason else reaches(shape.directions, ring)
+        for shape, (ring, reason) in zip(shapes, found, strict=True)
+    ]
+    needed = room(frame, kinds, np.array(reach), {}, fixed=fixed)
+    kind_of = [int(kinds.kind_of[joint.vertices[0]]) for joint in same.joints]
+    least_own = [np.diff(joint.directions, append=2 * np.pi).min() for joint in same.joints]
+    return Build(
+        frame,
+        same,
+        np.array([least_ring_ratio(shapes[kind].gaps) for kind in kind_of]),
+        np.array([found[kind][0] for kind in kind_of]),
+        tuple(
+            # Edges that only caps are so near to are told with those that the caps stand for.
+            found[kind][1] if own < shapes[kind].gaps.min() + _SAME else None
+            for kind, own in zip(kind_of, least_own, strict=True)
+        ),
+        needed,
+    )
+
+
+def _ring(gap: float, ring_ratio: float | None) -> tuple[float, str | None]:
+    """The ring of a joint with this smallest gap, and why it cannot be made, if it cannot."""
+    if ring_ratio is None:
+        try:
+            return any_joint(gap).ring_ratio, None
+        except InputError as error:
+            return LIMITS["ring_ratio"][1], str(error)
+    least = least_ring_ratio([gap])
+    if least < ring_ratio:
+        return ring_ratio, None
+    return ring_ratio, (
+        f"edges {math.degrees(gap):.4g} degrees apart need a ring ratio over {least:.4g}; at most "
+        f"{ring_ratio:g} works, for {math.degrees(least_gap(ring_ratio)):.4g} degrees and more"
+    )
 
 
 def _more(count: int) -> str:

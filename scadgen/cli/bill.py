@@ -55,7 +55,7 @@ def bill(
     scadgen bill out/hexagonal
     scadgen bill out/hexagonal --material PETG --profile mine.ini --keep
     """  # noqa: D301  click wants the character
-    from scadgen.emit.folder import update_bill
+    from scadgen.emit.folder import check_bill, update_bill
     from scadgen.emit.mesh import check_writable, write_atomic
     from scadgen.emit.parts_csv import parts_csv
     from scadgen.kit.bill import as_json as bill_of
@@ -71,21 +71,22 @@ def bill(
     kit = load(folder)
     if material is not None:
         kit = replace(kit, material=check_material(material))
+    place = check_bill(kit, folder) if keep else folder
     program = slicer.find()
-    if program is not None:
+    if program is not None and kit.placements:
         kit = replace(kit, slicing=_sliced(kit, program, profile, timeout))
     elif profile is not None:
         msg = f"profile {str(profile)!r}: {_missing()}"
         raise ToolError(msg)
     if keep:
-        update_bill(kit, folder)
+        update_bill(kit, place)
     if output is not None:
         write_atomic(output, parts_csv(kit).encode())
     if as_json:
         click.echo(json.dumps(bill_of(kit), indent=1))
         return
     _show(kit)
-    if kit.slicing is None:
+    if kit.slicing is None and program is None:
         click.echo(f"no print times: {_missing()}")
 
 

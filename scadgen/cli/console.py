@@ -6,13 +6,17 @@ import itertools
 import math
 import os
 import sys
+import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any
 
 import click
 
 __all__ = ["Bar", "progress", "status", "table", "timeout_option"]
+
+#: Seconds from one line of a log to the next, and to the first.
+_EVERY = 5.0
 
 
 def _seconds(_: click.Context, __: click.Parameter, value: float) -> float:
@@ -100,15 +104,27 @@ class Bar:
 def progress(text: str) -> Iterator[Bar]:
     """Show on stderr how far something is that runs.
 
-    On a terminal it is a bar; for programs it is lines, if ``SCADGEN_PROGRESS`` is ``lines``:
-    a percentage, a space and what runs now, as in ``12% proving the joint``.
+    On a terminal it is a bar; elsewhere, as in the log of a build, it is a line every few
+    seconds.  For programs it is a line at every step, if ``SCADGEN_PROGRESS`` is ``lines``: a
+    percentage, a space and what runs now, as in ``12% proving the joint``.  If it is ``none``
+    there is nothing.
     """
-    if os.environ.get("SCADGEN_PROGRESS") == "lines":
+    wanted = os.environ.get("SCADGEN_PROGRESS")
+    if wanted == "lines":
         yield Bar(lambda share, words: click.echo(f"{share or 0:.0%} {words or text}", err=True))
-        return
-    if not sys.stderr.isatty():
+    elif wanted == "none":
         yield Bar(lambda *_: None)
-        return
+    elif sys.stderr.isatty():
+        with _drawn(text) as bar:
+            yield bar
+    else:
+        with _logged(text) as bar:
+            yield bar
+
+
+@contextmanager
+def _drawn(text: str) -> Iterator[Bar]:
+    """A bar on a terminal."""
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
@@ -122,6 +138,33 @@ def progress(text: str) -> Iterator[Bar]:
             shown.update(task, description=description, total=total, completed=share or 0.0)
 
         yield Bar(show)
+
+
+@contextmanager
+def _logged(text: str) -> Iterator[Bar]:
+    """A line every few seconds, while there is something new to say."""
+    latest, over = text, threading.Event()
+
+    def show(share: float | None, words: str) -> None:
+        nonlocal latest
+        part = "" if share is None else f" {share:.0%}"
+        latest = f"{text}:{part} {words}" if words else f"{text}{part}"
+
+    def tell() -> None:
+        told = ""
+        while not over.wait(_EVERY):
+            if latest != told:
+                told = latest
+                with suppress(OSError):  # a reader that has gone is no reason to stop
+                    click.echo(told, err=True)
+
+    teller = threading.Thread(target=tell, daemon=True)
+    teller.start()
+    try:
+        yield Bar(show)
+    finally:
+        over.set()
+        teller.join()
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> None:

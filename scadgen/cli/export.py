@@ -8,6 +8,7 @@ import click
 
 from scadgen.errors import InputError
 from scadgen.kit.model import Kit
+from scadgen.solid.affine import Range
 
 __all__ = ["export", "settings"]
 
@@ -36,20 +37,51 @@ def export(
     from scadgen.emit.mesh import mesh_bytes, write_atomic
     from scadgen.kit.store import load
 
+    kind = _kind(kind, output)
     kit = load(folder)
     if part not in kit.parts:
         msg = f"part = {part!r}: must be one of {', '.join(kit.parts)}"
         raise InputError(msg)
     solid = kit.parts[part]
     points = solid.points(settings(kit, changes))
-    write_atomic(
-        output, mesh_bytes(points, solid.triangles, (kind or output.suffix.lstrip(".")).lower())
-    )
+    write_atomic(output, mesh_bytes(points, solid.triangles, kind))
     click.echo(f"{click.format_filename(output)}: {part}, {len(solid.triangles)} triangles")
 
 
-def settings(kit: Kit, changes: tuple[str, ...]) -> dict[str, float]:
+def _kind(kind: str | None, output: Path) -> str:
+    """The kind of file to write: what was asked for, or what the output's ending says.
+
+    Raises
+    ------
+    InputError
+        They are two kinds.
+    """
+    from scadgen.emit.mesh import FORMATS
+
+    ending = output.suffix.lstrip(".").lower()
+    wanted = (kind or ending).lower()
+    if ending != wanted and {ending, wanted} <= {*FORMATS}:
+        msg = (
+            f"format = {kind!r}: {str(output)!r} is {ending} by its ending; leave --format out, "
+            f"or name a file that ends in .{wanted}"
+        )
+        raise InputError(msg)
+    return wanted
+
+
+def settings(
+    kit: Kit, changes: tuple[str, ...], others: tuple[Range, ...] = ()
+) -> dict[str, float]:
     """A kit's live parameters with some changed, checked against their ranges.
+
+    Parameters
+    ----------
+    kit
+        The kit.
+    changes
+        What was typed.
+    others
+        Ranges of what can be set too, and is 0 if it is not.
 
     Raises
     ------
@@ -58,7 +90,7 @@ def settings(kit: Kit, changes: tuple[str, ...]) -> dict[str, float]:
     """
     from scadgen.kit.ranges import check_values
 
-    values = dict(kit.values)
+    values = dict(kit.values) | {other.parameter: 0.0 for other in others}
     for change in changes:
         name, equals, text = change.partition("=")
         if not equals or name not in values:
@@ -69,5 +101,5 @@ def settings(kit: Kit, changes: tuple[str, ...]) -> dict[str, float]:
         except ValueError as error:
             msg = f"--set {change}: {text!r} is not a number of mm"
             raise InputError(msg) from error
-    check_values(kit.ranges, values)
+    check_values([*kit.ranges, *others], values)
     return values

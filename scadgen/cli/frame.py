@@ -11,7 +11,7 @@ import click
 
 from scadgen.cli.console import status, table
 from scadgen.cli.frame_report import SIDES, report, show
-from scadgen.cli.frame_source import load_frame, option, source_options
+from scadgen.cli.frame_source import is_grid, load_frame, option, source_options
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ _FILE = click.Path(path_type=Path)
     "--ring-ratio",
     type=float,
     metavar="R",
-    help="Radius of all rings, in sides.  [default: the built-in weaves', or what angles need]",
+    help="Radius of all rings, in sides.  [default: as in a kit, by each joint's angles]",
 )
 @click.option(
     "--snap-angle", type=float, metavar="DEG", help="Turn edges by this much for fewer kinds."
@@ -82,15 +82,21 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     from scadgen.emit.frame_picture import frame_svg
     from scadgen.emit.mesh import write_atomic
     from scadgen.frame.sameness import Snapped
-    from scadgen.joint.weave import LIMITS
+    from scadgen.joint.weave import LIMITS, built_in
+    from scadgen.kit.request import VALENCE
     from scadgen.readers.json_frame import dumps
 
     _check_range("ring-ratio", ring_ratio, "sides", LIMITS["ring_ratio"])
+    given = [n for n, v in options.items() if v is not None and v is not False]
+    grid = is_grid(name, given)
+    if grid and ring_ratio is None:
+        ring_ratio = built_in(VALENCE[name], "fixed").ring_ratio
     with status("looking at the frame"):
         read = load_frame(name, options)
         kinds = _kinds(read.frame, snap_angle, snap_length)
         snapped, same = (kinds, kinds.same) if isinstance(kinds, Snapped) else (None, kinds)
-        said = report(rings(read.frame, same, ring_ratio), read.notes, snapped, side)
+        build = rings(read.frame, same, ring_ratio, fixed=grid)
+        said = report(build, read.notes, snapped, side)
         if output:
             write_atomic(output, dumps(read.frame).encode())
         if picture:

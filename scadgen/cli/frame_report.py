@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -46,6 +46,8 @@ def report(
         Side of the tubes, in mm, if it is to be built.
     """
     frame, largest = build.frame, build.largest_side
+    in_the_way = [*build.unfit, *(build.too_short(side) if side else ())]
+    too_small = largest is not None and (in_the_way or largest < SIDES[0])
     return {
         "name": frame.name,
         "vertices": len(frame.vertices),
@@ -58,7 +60,8 @@ def report(
         "kinds_of_edges": _edges(build, side),
         "side": side,
         "largest_side": largest and math.floor(largest * 10**_DECIMALS) / 10**_DECIMALS,
-        "in_the_way": [*build.unfit, *(build.too_short(side) if side else ())],
+        "in_the_way": in_the_way,
+        "would_do": build.room.works(side or SIDES[0]) if too_small else None,
     }
 
 
@@ -157,21 +160,18 @@ def show(said: dict[str, Any]) -> None:
     if said["snap"]:
         _lines(said["snap"]["notes"], "snapped: ")
     _lines(said["in_the_way"], most=_REASONS)
-    click.echo(_verdict(said["side"], said["largest_side"], bool(said["in_the_way"])))
+    click.echo(_verdict(said))
 
 
-def _verdict(side: float | None, largest: float | None, in_the_way: bool) -> str:  # noqa: FBT001
+def _verdict(said: Mapping[str, Any]) -> str:
     """Which sides fit, or what would help."""
+    largest = said["largest_side"]
     if largest is None:
         return "cannot be built at any side"
-    least = side or SIDES[0]
-    larger = f"a frame {math.ceil(least / largest * 1000) / 1000:g} times as large"
-    within = f"{math.floor(min(largest, SIDES[1]) * 1000) / 1000:g} mm"
-    if largest < SIDES[0]:
-        return f"too small for sides of {least:g} mm; {larger} would do"
-    if in_the_way:
-        return f"too small for sides of {least:g} mm; sides of {within} or {larger} would do"
-    return f"sides up to {within} fit, clearance aside"
+    if said["would_do"]:
+        return f"too small for sides of {said['side'] or SIDES[0]:g} mm; {said['would_do']}"
+    within = math.floor(min(largest, SIDES[1]) * 1000) / 1000
+    return f"sides up to {within:g} mm fit"
 
 
 def _rounded(value: float) -> float:

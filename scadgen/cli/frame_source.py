@@ -15,7 +15,7 @@ from scadgen.errors import InputError
 if TYPE_CHECKING:
     from scadgen.readers.reading import Read
 
-__all__ = ["load_frame", "option", "source_options"]
+__all__ = ["is_grid", "load_frame", "option", "source_options"]
 
 #: Options of families: type, metavar, what it means; as in the catalogue.
 _FAMILY: dict[str, tuple[type, str, str]] = {
@@ -89,6 +89,21 @@ def source_options(
         return function
 
     return add
+
+
+def is_grid(name: str, options: Iterable[str]) -> bool:
+    """Whether a kit of this frame, with these options given, has rows and columns to set.
+
+    Parameters
+    ----------
+    name
+        What was named: a frame or a file.
+    options
+        Names of the options of frames that are given.
+    """
+    from scadgen.kit.request import VALENCE
+
+    return name in VALENCE and {*options} <= {"edge_length", "rows", "columns"}
 
 
 def load_frame(name: str, options: Mapping[str, Any]) -> Read:

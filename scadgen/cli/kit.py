@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from scadgen.cli.console import Bar, progress
-from scadgen.cli.frame_source import load_frame, source_options
+from scadgen.cli.frame_source import is_grid, load_frame, source_options
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -95,8 +95,9 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
 @click.option(
     "--weave",
     metavar="NAME|FILE",
-    help="A built-in weave, or a JSON file with ring_ratio, span, amplitude, bend and periods."
-    "  [default: the one for the joint's edges and the key; other frames: by each joint's angles]",
+    help="A built-in weave, or a JSON file with ring_ratio, span, amplitude, bend, periods and, if "
+    "wanted, stretch.  [default: the one for the joint's edges and the key; other frames: by each "
+    "joint's angles]",
 )
 @_lengths
 @source_options(without=("rows", "columns", "edge_length"))
@@ -214,7 +215,7 @@ def _say(made: Kit, folder: Path, notes: Sequence[str]) -> None:
 
 def _request(frame: str, options: dict[str, Any]) -> tuple[Request, tuple[str, ...]]:
     """What kit to make, and what was repaired of the frame it is for."""
-    from scadgen.kit.build import VALENCE, Request
+    from scadgen.kit.build import Request
 
     lengths = {name for name, *_ in _LENGTHS}
     own = {"rows", "columns", "key", "rim", "detail", "weave", *lengths}
@@ -226,7 +227,7 @@ def _request(frame: str, options: dict[str, Any]) -> tuple[Request, tuple[str, .
     }
     detail, rim, command = options["detail"], options["rim"], _command()
     rows, columns = options["rows"], options["columns"]
-    if frame in VALENCE and not of_frame and rim == "caps":
+    if is_grid(frame, of_frame) and rim == "caps":
         rows, columns = (2 if count is None else count for count in (rows, columns))
         key = options["key"] or "fixed"
         return Request(frame, key, rows, columns, detail, weave, values, command), ()

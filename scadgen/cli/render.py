@@ -19,7 +19,13 @@ __all__ = ["render"]
 @click.argument("folder", metavar="KIT", type=click.Path(path_type=Path))
 @click.option("--part", "parts", multiple=True, help="Which part; several times for several.")
 @click.option("--format", "kind", default="stl", show_default=True, metavar="stl|3mf|png")
-@click.option("--set", "changes", multiple=True, metavar="NAME=MM", help="Another live parameter.")
+@click.option(
+    "--set",
+    "changes",
+    multiple=True,
+    metavar="NAME=MM",
+    help="Another live parameter, or number_height: of the numbers on tubes.",
+)
 @click.option("--jobs", type=click.IntRange(min=1), default=os.cpu_count() or 1, help="At once.")
 @timeout_option
 def render(
@@ -35,6 +41,7 @@ def render(
     Every log is read and every STL read back: a drawing is good only if it is watertight.
     """
     from scadgen.cli.export import settings
+    from scadgen.emit.scad_numbers import HEIGHT
     from scadgen.emit.scad_parameters import views
     from scadgen.kit.store import load
     from scadgen.tools import openscad
@@ -49,7 +56,7 @@ def render(
         if part not in known:
             msg = f"part = {part!r}: must be one of {', '.join(known)}"
             raise InputError(msg)
-    values = settings(kit, changes)
+    values = settings(kit, changes, (HEIGHT,))
     target = folder / kind
     try:
         target.mkdir(exist_ok=True)

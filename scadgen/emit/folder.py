@@ -11,6 +11,7 @@ from pathlib import Path
 
 from scadgen.emit.macro import macro
 from scadgen.emit.makefile import makefile, stl_check
+from scadgen.emit.mesh import check_writable
 from scadgen.emit.parts_csv import parts_csv
 from scadgen.emit.picture import assembly_picture, preview
 from scadgen.emit.placing import placing
@@ -20,7 +21,7 @@ from scadgen.errors import InputError
 from scadgen.kit.model import Kit
 from scadgen.kit.store import FORMAT, dumps
 
-__all__ = ["check_folder", "files_of", "update_bill", "write_kit"]
+__all__ = ["check_bill", "check_folder", "files_of", "update_bill", "write_kit"]
 
 #: What a new kit makes stale: what the kit's Makefile and `scadgen render` write, and what not
 #: every kit has.
@@ -83,8 +84,32 @@ def write_kit(kit: Kit, folder: Path, *, progress: Callable[[str], None] = lambd
             _swap(stage, target, Path(name) / "old")
 
 
+def check_bill(kit: Kit, path: Path) -> Path:
+    """The folder in which `update_bill` could write a kit's bill.
+
+    Parameters
+    ----------
+    kit
+        The kit that is there.
+    path
+        Its folder, or the ``kit.json`` in it.
+
+    Raises
+    ------
+    InputError
+        It is another file, or one of the files could not be written.  Nothing is changed.
+    """
+    if not path.is_dir() and path.name != "kit.json":
+        msg = f"cannot put a bill into {str(path)!r}: name a kit's folder, or the kit.json in it"
+        raise InputError(msg)
+    folder = path if path.is_dir() else path.parent
+    for file in _of_bill(kit):
+        check_writable(folder / file)
+    return folder
+
+
 def update_bill(kit: Kit, folder: Path) -> None:
-    """Write anew the files of a kit's folder that have its bill; nothing else is touched.
+    """Write anew all files of a kit's folder that have its bill, or none; nothing else is touched.
 
     Parameters
     ----------
@@ -100,11 +125,23 @@ def update_bill(kit: Kit, folder: Path) -> None:
     """
     texts = {name: files_of(kit)[name](kit) for name in _of_bill(kit)}
     with _refusing(folder), tempfile.TemporaryDirectory(dir=folder, prefix=".scadgen-") as name:
+        new, old = Path(name) / "new", Path(name) / "old"
+        new.mkdir()
+        old.mkdir()
         for file, text in texts.items():
-            data = text if isinstance(text, bytes) else text.encode()
-            (Path(name) / file).write_bytes(data)
-        for file in texts:
-            (Path(name) / file).replace(folder / file)
+            (new / file).write_bytes(text if isinstance(text, bytes) else text.encode())
+            if (folder / file).exists():
+                shutil.copy2(folder / file, old / file)
+        try:
+            for file in texts:
+                (new / file).replace(folder / file)
+        except BaseException:  # an interrupt as well: the old files come back
+            for file in texts:
+                if (old / file).exists():
+                    (old / file).replace(folder / file)
+                else:
+                    (folder / file).unlink(missing_ok=True)
+            raise
 
 
 def _of_bill(kit: Kit) -> tuple[str, ...]:

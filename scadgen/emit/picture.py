@@ -6,13 +6,16 @@ screen, and every role has one colour, the same as in the kit's OpenSCAD file.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from types import MappingProxyType
+from typing import TypeVar
 
 import numpy as np
 
-from scadgen.emit.preview import Colour, Shell, render
+from scadgen.emit.letters import written
+from scadgen.emit.preview import LARGEST, Colour, Shell, render
 from scadgen.emit.scad_parameters import limits
 from scadgen.errors import InputError
 from scadgen.frame.layout import bill
@@ -22,6 +25,7 @@ from scadgen.solid.affine import Floats
 
 __all__ = [
     "COLOURS",
+    "MOST_JOINTS",
     "assembly_picture",
     "frame_picture",
     "joint_picture",
@@ -43,20 +47,27 @@ COLOURS: Mapping[str, Colour] = MappingProxyType(
 
 #: Where a joint is seen from: azimuth and elevation, in degrees.
 _VIEW = (-90.0, 48.0)
+#: Which way is right and up on the screen then.
+_RIGHT = np.array([1.0, 0.0, 0.0])
+_UP = np.array([0.0, math.sin(math.radians(_VIEW[1])), math.cos(math.radians(_VIEW[1]))])
 #: Turn of a joint, and of a part alone, so that its edge is seen a little from its end.
 _JOINT_TURN, _PART_TURN = 18.0, 14.0
 #: How far a joint is pulled apart in the preview, in sides, and the furthest it may be.
 _APART, _MOST_APART = 3.5, 100.0
 #: Tube that a part is shown with, in sides over the shortest; longer ones would dwarf the joints.
 _SHOWN = 3.5
-#: Steps of an assembly in one row at most.
-_MOST_IN_ROW = 3
+#: Items in one row at most, in a picture of one kind of joint; of steps of an assembly where
+#: there are several; and height of a row of these, in pixels.
+_MOST_IN_ROW, _MOST_STEPS, _STEPS_HEIGHT = 3, 6, 240
 #: Kinds of joints and edge elements that a picture shows at most: the first of many.
-_MOST_JOINTS, _MOST_ELEMENTS = 4, 8
-#: Room between two items, in sides.
-_GAP = 1.2
+MOST_JOINTS, _MOST_ELEMENTS = 16, 8
+#: Room between two items, and height of their names, in sides.
+_GAP, _NAME = 1.2, 1.0
+#: Colour of names: nearly black.
+_INK: Colour = (40, 40, 40)
 
 _Item = list[Shell]
+_T = TypeVar("_T")
 
 
 def preview(kit: Kit, *, size: tuple[int, int] = (1000, 750)) -> bytes:
@@ -75,11 +86,16 @@ def preview(kit: Kit, *, size: tuple[int, int] = (1000, 750)) -> bytes:
         The file's bytes; the same for the same kit.
     """
     elements = list(bill((p for p in kit.placements if p.role in ("row", "cross")), kit.parts))
+    shown = kit.joints[:MOST_JOINTS]
     joints = [
-        _joint(kit, one, apart) for one in kit.joints[:_MOST_JOINTS] for apart in (0.0, _APART)
+        [_named(_joint(kit, one), one.name, kit.values["side"]), _joint(kit, one, _APART)]
+        for one in shown
     ]
     alone = [_alone(kit, name) for name in elements[:_MOST_ELEMENTS]]
-    return _draw(kit, [*_in_rows(joints, _MOST_IN_ROW), *_in_rows(alone, _MOST_IN_ROW)], size)
+    # Pairs are twice as wide as high, and so about as many in a row as there are rows.
+    pairs = _in_rows(joints, math.ceil(math.sqrt(0.7 * len(shown))))
+    rows = [list(itertools.chain(*row)) for row in pairs]
+    return _draw(kit, [*rows, *_in_rows(alone, max(_MOST_IN_ROW, len(rows[0])))], size)
 
 
 def joint_picture(kit: Kit, explode: float = 0.0, *, size: tuple[int, int] = (1200, 900)) -> bytes:
@@ -102,8 +118,9 @@ def joint_picture(kit: Kit, explode: float = 0.0, *, size: tuple[int, int] = (12
     if not 0 <= explode <= _MOST_APART:
         msg = f"explode = {explode:g}: must be 0 to {_MOST_APART:g} sides"
         raise InputError(msg)
-    joints = [_joint(kit, one, explode) for one in kit.joints[:_MOST_JOINTS]]
-    return _draw(kit, _in_rows(joints, _MOST_IN_ROW), size)
+    side, shown = kit.values["side"], kit.joints[:MOST_JOINTS]
+    joints = [_named(_joint(kit, one, explode), one.name, side) for one in shown]
+    return _draw(kit, _in_rows(joints, max(_MOST_IN_ROW, math.isqrt(len(joints)))), size)
 
 
 def assembly_picture(kit: Kit, *, size: tuple[int, int] = (1200, 700)) -> bytes:
@@ -114,7 +131,8 @@ def assembly_picture(kit: Kit, *, size: tuple[int, int] = (1200, 700)) -> bytes:
     kit
         The kit.
     size
-        Width and height in pixels, of each kind of joint.
+        Width and height in pixels; where there are several kinds of joints, it is as high as
+        their rows need.
 
     Raises
     ------
@@ -124,9 +142,14 @@ def assembly_picture(kit: Kit, *, size: tuple[int, int] = (1200, 700)) -> bytes:
     if not kit.proved:
         msg = "the kit is unchecked: no way is known on which its joint is put together"
         raise InputError(msg)
-    shown = kit.joints[:_MOST_JOINTS]
-    rows = [row for one in shown for row in _in_rows(_steps(kit, one), _MOST_IN_ROW)]
-    return _draw(kit, rows, (size[0], size[1] * len(shown)))
+    if len(kit.joints) == 1:
+        return _draw(kit, _in_rows(_steps(kit, kit.joints[0]), _MOST_IN_ROW), size)
+    rows = []
+    for one in kit.joints[:MOST_JOINTS]:
+        first, *others = _steps(kit, one)
+        named = _named(first, one.name, kit.values["side"])
+        rows += _in_rows([named, *others], _MOST_STEPS)
+    return _draw(kit, rows, (size[0], min(_STEPS_HEIGHT * len(rows), LARGEST)))
 
 
 def _steps(kit: Kit, one: Joint) -> list[_Item]:
@@ -140,7 +163,7 @@ def _steps(kit: Kit, one: Joint) -> list[_Item]:
     return steps[::-1]
 
 
-def _in_rows(items: Sequence[_Item], most: int) -> list[Sequence[_Item]]:
+def _in_rows(items: Sequence[_T], most: int) -> list[Sequence[_T]]:
     """Items in as few rows as need be, all of them about as long."""
     rows = math.ceil(len(items) / most)
     count = math.ceil(len(items) / max(rows, 1))
@@ -189,7 +212,7 @@ def _roles(kit: Kit) -> dict[str, str]:
 def _joint(
     kit: Kit,
     one: Joint,
-    explode: float,
+    explode: float = 0.0,
     moved: Mapping[int, Floats] = MappingProxyType({}),
     there: Collection[int] | None = None,
 ) -> _Item:
@@ -199,15 +222,26 @@ def _joint(
     """
     shells = _placed(kit, one.pieces, kit.values, explode)
     seen = 0
+    step = min(0.3, 0.75 / max(1, sum(p.role == "cap" for p in one.pieces) - 1))
     for n, placement in enumerate(one.pieces):
         points, triangles, colour = shells[n]
         if n in moved:
             points = points @ moved[n][:3, :3].T + moved[n][:3, 3]
         if placement.role == "cap":
-            colour = _lighter(colour, 0.3 * seen)
+            colour = _lighter(colour, step * seen)
             seen += 1
         shells[n] = _turned(points, _JOINT_TURN, flip=False), triangles, colour
     return [shell for n, shell in enumerate(shells) if there is None or n in there]
+
+
+def _named(item: _Item, name: str, side: float) -> _Item:
+    """An item with its name above it on the left, if it has one."""
+    if not name:
+        return item
+    (left, _), (_, top) = _box(item)
+    points, triangles = written(name, _RIGHT, _UP)
+    place = left * _RIGHT + (top + 0.3 * _NAME * side) * _UP
+    return [*item, (_NAME * side * points + place, triangles, _INK)]
 
 
 def _lighter(colour: Colour, share: float) -> Colour:
@@ -257,25 +291,23 @@ def _turned(points: Floats, turn: float, *, flip: bool) -> Floats:
 
 def _draw(kit: Kit, rows: Sequence[Sequence[_Item]], size: tuple[int, int]) -> bytes:
     """Draw rows of items, the first at the top, each row centred."""
-    gap, elevation = _GAP * kit.values["side"], math.radians(_VIEW[1])
-    # On the screen, right is x and up is along this.
-    upwards = np.array([0.0, math.sin(elevation), math.cos(elevation)])
+    gap = _GAP * kit.values["side"]
     shells: list[Shell] = []
     top = 0.0
     for row in rows:
-        boxes = [_box(item, upwards) for item in row]
+        boxes = [_box(item) for item in row]
         widths, heights = np.array([high - low for low, high in boxes]).T
         left = -(widths.sum() + gap * (len(row) - 1)) / 2
         for item, (low, _), width, height in zip(row, boxes, widths, heights, strict=True):
             up = top - (heights.max() + height) / 2 - low[1]
-            move = np.array([left - low[0], up / upwards[1], 0.0])
+            move = np.array([left - low[0], up / _UP[1], 0.0])
             shells += [(points + move, triangles, colour) for points, triangles, colour in item]
             left += width + gap
         top -= heights.max() + gap
     return render(shells, size=size, view=_VIEW)
 
 
-def _box(item: _Item, upwards: Floats) -> tuple[Floats, Floats]:
+def _box(item: _Item) -> tuple[Floats, Floats]:
     """Lower left and upper right corner of an item on the screen."""
-    flat = np.concatenate([np.column_stack([p[:, 0], p @ upwards]) for p, _, _ in item])
+    flat = np.concatenate([points @ np.column_stack([_RIGHT, _UP]) for points, _, _ in item])
     return flat.min(axis=0), flat.max(axis=0)

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from scadgen.errors import InputError
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["Colour", "Shell", "render"]
+__all__ = ["LARGEST", "Colour", "Shell", "render"]
 
 #: Red, green, blue, each 0 to 255.
 Colour = tuple[int, int, int]
@@ -31,7 +31,7 @@ _Bytes = NDArray[np.uint8]
 #: Samples a pixel in each direction.
 _OVERSAMPLE = 2
 #: Largest width or height, in pixels: the sample buffer then takes half a gigabyte.
-_LARGEST = 4096
+LARGEST = 4096
 #: Free border, as a fraction of the picture's width and height.
 _MARGIN = 0.04
 #: Steps that depth is rounded to; with a triangle's number below, it fits 63 bits.
@@ -109,8 +109,8 @@ def render(
     InputError
         The size is out of range, a point is not finite, or there is no triangle.
     """
-    if not all(1 <= extent <= _LARGEST for extent in size):
-        msg = f"preview size {size[0]} x {size[1]}: must be 1 to {_LARGEST} pixels each way"
+    if not all(1 <= extent <= LARGEST for extent in size):
+        msg = f"preview size {size[0]} x {size[1]}: must be 1 to {LARGEST} pixels each way"
         raise InputError(msg)
     width, height = (extent * _OVERSAMPLE for extent in size)
     scene = _project(shells, (width, height), view)

@@ -9,6 +9,7 @@ from itertools import pairwise
 from typing import Any
 
 from scadgen import __version__
+from scadgen.emit.picture import MOST_JOINTS
 from scadgen.emit.scad_parameters import Parameter, label, limits, sections
 from scadgen.emit.scad_text import literal
 from scadgen.emit.templates import environment
@@ -57,6 +58,7 @@ def readme(kit: Kit) -> str:
         material=kit.material,
         density=DENSITIES[kit.material],
         sliced=kit.slicing and kit.slicing.how,
+        pegs=[line.part for line in needed if line.part.startswith("peg_")],
         others=[f"`{name}`" for name in kit.parts if name not in asked],
         joints=[_joint(kit, one) for one in kit.joints],
         grid=kit.rows > 0,
@@ -68,6 +70,7 @@ def readme(kit: Kit) -> str:
         coupon_step=settings["coupon_step"].value,
         live=[_live(kit, settings[name]) for name in settings if name in kit.values],
         most_cells=MOST_CELLS,
+        most_joints=MOST_JOINTS,
         proved=kit.proved,
         command=_fenced(kit.command),
     )

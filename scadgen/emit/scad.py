@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from scadgen import __version__
+from scadgen.emit.picture import COLOURS
 from scadgen.emit.scad_numbers import HIGHEST, tubes
 from scadgen.emit.scad_parameters import parameter_sets, sections
 from scadgen.emit.scad_text import comment, expression, faces, number, quoted, table
@@ -74,6 +75,7 @@ def scad(kit: Kit) -> str:
             for r in kit.ranges
         ],
         parts=[_part(solid, live) for solid in kit.parts.values()],
+        colours=COLOURS,
         elements=kit.elements,
         tubes=tubes(kit),
         highest=HIGHEST,

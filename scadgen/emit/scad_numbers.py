@@ -13,12 +13,20 @@ import numpy as np
 
 from scadgen.kit.bill import numbers
 from scadgen.kit.model import Kit
-from scadgen.solid.affine import AffineSolid
+from scadgen.solid.affine import AffineSolid, Linear, Range
 
-__all__ = ["HIGHEST", "Tube", "tubes"]
+__all__ = ["HEIGHT", "HIGHEST", "Tube", "tubes"]
 
 #: Numbers rise or sink by this at most, in mm; the wall above a bore is 1.9 mm or more.
 HIGHEST = 1
+
+#: What may be set for numbers, which only OpenSCAD draws.
+HEIGHT = Range(
+    "number_height",
+    Linear({}, -HIGHEST),
+    Linear({}, HIGHEST),
+    "deeper, numbers could meet a bore",
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Whether a joint can stand at every vertex, and every edge is long enough for its two.
+"""Whether a joint can stand at every vertex, and what its ring needs.
 
 Lengths are in sides of the tubes where nothing else is said.
 """
@@ -10,13 +10,12 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from scadgen.errors import GeometryError, InputError
+from scadgen.errors import GeometryError
 from scadgen.frame.graph import Frame
 from scadgen.frame.planarity import where
 from scadgen.solid.affine import Floats
 
 __all__ = [
-    "check_lengths",
     "check_ring_ratios",
     "least_gap",
     "least_ring_ratio",
@@ -106,8 +105,8 @@ def check_ring_ratios(frame: Frame, most: float, spacing: float = 0.0) -> None:
         raise GeometryError(msg)
 
 
-def check_lengths(frame: Frame, side: float, ring_ratio: ArrayLike, rest: float = 0.0) -> None:
-    """Refuse edges that are too short for the joints at their ends.
+def least_scale(frame: Frame, side: float, ring_ratio: ArrayLike, rest: float = 0.0) -> float:
+    """How many times as large a frame must be at least, so that no edge is too short.
 
     Parameters
     ----------
@@ -119,41 +118,9 @@ def check_lengths(frame: Frame, side: float, ring_ratio: ArrayLike, rest: float 
         Of all joints, or of each vertex: ``(n,) float``.
     rest
         Least length of a tube between two joints, in sides.
-
-    Raises
-    ------
-    GeometryError
-        An edge is too short: which, how long it is, how much is missing, and what would help.
-    InputError
-        A side that is not positive.
     """
-    if not (math.isfinite(side) and side > 0):
-        msg = f"side = {side!r}: must be a positive number of mm"
-        raise InputError(msg)
-    need = side * _needs(frame, ring_ratio, rest)
-    missing = need - frame.lengths
-    count = np.count_nonzero(missing > 0)
-    if count:
-        worst = int(missing.argmax())
-        first, second = frame.vertices[frame.edges[worst]]
-        factor = float((need / frame.lengths).max())
-        msg = (
-            f"edge {worst} from {where(first)} to {where(second)}, {frame.lengths[worst]:.4g} mm "
-            f"long, is {missing[worst]:.4g} mm too short for its two joints{_more(int(count))}; "
-            f"a side of {_down(side / factor)} mm or a frame {_up(factor)} times as large would do"
-        )
-        raise GeometryError(msg)
-
-
-def least_scale(frame: Frame, side: float, ring_ratio: ArrayLike, rest: float = 0.0) -> float:
-    """How many times as large the frame must be at least for `check_lengths` to pass."""
-    return float((side * _needs(frame, ring_ratio, rest) / frame.lengths).max())
-
-
-def _needs(frame: Frame, ring_ratio: ArrayLike, rest: float) -> Floats:
-    """Length that each edge needs, in sides."""
     start = np.broadcast_to(tube_start(ring_ratio), len(frame.vertices))
-    return np.asarray(start[frame.edges].sum(axis=1) + rest)
+    return float((side * (start[frame.edges].sum(axis=1) + rest) / frame.lengths).max())
 
 
 def _least(half: Floats, spacing: float) -> Floats:
@@ -165,11 +132,3 @@ def _least(half: Floats, spacing: float) -> Floats:
 
 def _more(count: int) -> str:
     return f" (and {count - 1} more)" if count > 1 else ""
-
-
-def _down(value: float) -> str:
-    return f"{math.floor(value * 1000) / 1000:g}"
-
-
-def _up(value: float) -> str:
-    return f"{math.ceil(value * 1000) / 1000:g}"

@@ -83,10 +83,11 @@ def check_planar(vertices: Floats, edges: Ints) -> None:
         raise InputError(msg)
     pairs = crossings(vertices, edges)
     if len(pairs):
-        first, second = pairs[0]
+        first, second = _lines(vertices, edges[pairs[0]])
+        point = shapely.get_coordinates(shapely.intersection(first, second))[0]
         msg = (
-            f"edges {first} and {second} cross, between {where(vertices[edges[first][0]])} and "
-            f"{where(vertices[edges[first][1]])}{_more(pairs)}: a frame has a vertex there"
+            f"edges {pairs[0, 0]} and {pairs[0, 1]} cross at {where(point)}{_more(pairs)}: a frame "
+            "has a vertex there"
         )
         raise InputError(msg)
 

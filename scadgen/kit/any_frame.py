@@ -19,7 +19,7 @@ from scadgen.element.pieces import half
 from scadgen.element.squares import Key
 from scadgen.errors import InputError, InvariantError
 from scadgen.frame.graph import Frame, make_frame
-from scadgen.frame.joints import check_lengths, least_scale
+from scadgen.frame.joints import least_scale
 from scadgen.frame.kinds import Kinds, choose_kinds
 from scadgen.frame.placement import Placement
 from scadgen.frame.planarity import where
@@ -27,8 +27,9 @@ from scadgen.frame.sameness import Sameness, joint_name, sameness
 from scadgen.joint.weave import Weave, any_joint
 from scadgen.kit.model import Joint, Kit
 from scadgen.kit.pieces import Pieces
-from scadgen.kit.ranges import TUBE, check_values, edge_range, ranges
+from scadgen.kit.ranges import SIDE, check_values, edge_range, ranges
 from scadgen.kit.request import Request, default_values
+from scadgen.kit.room import reaches, room
 from scadgen.kit.wanted import Wanted, wanted_pieces
 from scadgen.solid.affine import AffineSolid, Floats, Range
 from scadgen.work.each import Means
@@ -44,6 +45,9 @@ _LENGTH_DECIMALS = 6
 #: Tube between two joints where it may be chosen, in sides: room for two sockets, and for rings
 #: that grow.
 _ROOM = 2.0
+
+#: More than these lengths, in sides, is refused by itself: edges are looked at with no more.
+_MODEST = {"clearance": 0.06, "peg_clearance": 0.1, "peg_length": 1.5}
 
 #: What is added to a ring ratio until walls keep away from the ring's edges: they hardly move.
 _WIDER = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3)
@@ -73,10 +77,14 @@ def build_frame(
     GeometryError
         A joint's weave makes no sound pieces, or an edge is too short: says where.
     """
-    frame = _graph(request)
+    frame, side = _graph(request), request.values.get("side", 10.0)
+    check_values([SIDE], {"side": side})
     kinds = choose_kinds(frame, sameness(frame), rim=request.rim == "caps")
     weaves = [_weave(frame, kinds, number) for number in range(len(kinds.kinds))]
     frame = _sized(request, frame, np.array([weaves[n].ring_ratio for n in kinds.kind_of]))
+    reach = [reaches(kinds.shape(n).directions, weave.ring_ratio) for n, weave in enumerate(weaves)]
+    modest = {n: min(v, _MODEST[n] * side) for n, v in request.values.items() if n in _MODEST}
+    room(frame, kinds, np.array(reach), modest).check(side)
     same = sameness(frame)
     wanted = [_wanted(request, frame, kinds, number, weave) for number, weave in enumerate(weaves)]
     pieces = wanted_pieces(wanted, means, lambda count: done(count, len(wanted)))
@@ -84,6 +92,10 @@ def build_frame(
     limits = build.limits()
     values = default_values(request, pieces, limits)
     values["edge_length"] = build.unit
+    check_values([limit for limit in limits if limit.parameter != "edge_length"], values)
+    # Rings may have become wider.
+    reach = [(one.key.tube_start, one.key.pad) for one in pieces]
+    room(frame, kinds, np.array(reach), values).check(side)
     check_values(limits, values)
     return Kit(
         frame=request.frame,
@@ -117,13 +129,7 @@ def _graph(request: Request) -> Frame:
 
 
 def _sized(request: Request, frame: Frame, rings: Floats) -> Frame:
-    """The frame as large as its shortest edge is to be, or as its joints need.
-
-    Raises
-    ------
-    GeometryError
-        An edge is too short: which, and what would help.
-    """
+    """The frame as large as its shortest edge is to be, or as its joints need."""
     side, shortest = request.values.get("side", 10.0), float(frame.lengths.min())
     wanted = request.values.get("edge_length", shortest)
     if request.resizable and "edge_length" not in request.values:
@@ -131,7 +137,6 @@ def _sized(request: Request, frame: Frame, rings: Floats) -> Frame:
         wanted = max(6, math.ceil(need / side - 1e-9)) * side
     if abs(wanted - shortest) > 10**-_LENGTH_DECIMALS:
         frame = make_frame(frame.name, frame.vertices * (wanted / shortest), frame.edges)
-    check_lengths(frame, side, rings, TUBE)
     return frame
 
 

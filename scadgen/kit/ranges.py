@@ -13,13 +13,16 @@ from scadgen.element.squares import Key
 from scadgen.errors import InputError
 from scadgen.solid.affine import Linear, Range
 
-__all__ = ["TUBE", "WALL", "check_values", "edge_range", "ranges"]
+__all__ = ["SIDE", "TUBE", "WALL", "check_values", "edge_range", "ranges"]
 
 #: Thinnest wall anywhere beside a hole, in sides; 0.4 mm, one line of a nozzle, at side 10 mm.
 WALL = 0.04
 
 #: Shortest tube between two joints, in sides.
 TUBE = 0.5
+
+#: What the side may be.
+SIDE = Range("side", Linear({}, 5.0), Linear({}, 100.0), "thinner walls do not print")
 
 #: What rounding of decimal input may take a value past its bound, in mm.
 _SLACK = 1e-9
@@ -38,7 +41,7 @@ def ranges(key: Key, clearance_limit: float, hole: float) -> tuple[Range, ...]:
         Free width of the ring's hole along the key's edge, in sides.
     """
     found = [
-        Range("side", Linear({}, 5.0), Linear({}, 100.0), "thinner walls do not print"),
+        SIDE,
         Range(
             "clearance",
             Linear({}),

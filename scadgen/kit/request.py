@@ -18,10 +18,16 @@ from scadgen.kit.pieces import Pieces
 from scadgen.kit.ranges import WALL, check_values
 from scadgen.solid.affine import PARAMETERS, Range
 
-__all__ = ["VALENCE", "Request", "default_values"]
+__all__ = ["CLEARANCE", "VALENCE", "Request", "default_values", "peg_length"]
 
 #: Edges at each vertex of the frames that have rows and columns.
 VALENCE: Mapping[str, int] = MappingProxyType({"hexagonal": 3, "square": 4})
+
+#: Gap between mating faces that is not said, in mm.
+CLEARANCE = 0.2
+
+#: How far a loose peg reaches into the tube, in sides.
+_INTO_TUBE = 0.35
 
 #: Above every range, in mm, so that no sum of lengths leaves the numbers there are.
 _LONGEST = 1e6
@@ -79,7 +85,7 @@ class Request:
         """Refuse names that do not exist."""
         for name, value, known in (
             ("frame", self.frame, VALENCE if self.graph is None else (self.frame,)),
-            ("key", self.key, KEYS if self.graph is None else ("loose",)),
+            ("key", self.key, KEYS),
             ("detail", self.detail, DETAILS),
             ("rim", self.rim, RIMS),
         ):
@@ -94,6 +100,13 @@ class Request:
             if not 0 <= length <= _LONGEST:
                 msg = f"{name} = {length:g} mm: must be a number from 0 to {_LONGEST:g}"
                 raise InputError(msg)
+        if self.graph is not None and self.key != "loose":
+            grids = " and ".join(VALENCE)
+            msg = (
+                f"key = {self.key!r}: must be loose, so that each joint closes with all its tubes "
+                f"in place; only {grids} frames of rows and columns have fixed pegs"
+            )
+            raise InputError(msg)
         if self.graph is None:
             LAYOUTS[self.frame](self.rows, self.columns, self.key)
         elif self.weave:
@@ -128,15 +141,16 @@ def default_values(
     """
     check_values([r for r in limits if r.parameter == "side"], {"side": 10.0, **request.values})
     side = request.values.get("side", 10.0)
-    clearance = request.values.get("clearance", 0.2)
+    clearance = request.values.get("clearance", CLEARANCE)
     gap = request.values.get("peg_clearance", clearance)
     keys = [one.key for one in pieces]
     width = min(0.4 * side, 2 * (min(key.window for key in keys) - WALL) * side - 2 * gap)
     if request.key == "fixed":
         length = min(0.6 * side, (min(key.depth for key in keys) - WALL) * side - gap)
     else:
-        through = (max(key.tube_start - key.pad for key in keys) + 0.35) * side + clearance
-        length = min(through, (min(one.hole() for one in pieces) - WALL) * side - 2 * gap)
+        through = max(key.tube_start - key.pad for key in keys)
+        length = peg_length(through, side, clearance)
+        length = min(length, (min(one.hole() for one in pieces) - WALL) * side - 2 * gap)
     values = {
         "side": side,
         "edge_length": 0.0,
@@ -151,3 +165,16 @@ def default_values(
         least = max(r.low(values) for r in limits if r.parameter == "edge_length")
         values["edge_length"] = max(6, math.ceil(least / side + 0.9)) * side
     return values
+
+
+def peg_length(through: float, side: float, clearance: float) -> float:
+    """Length of a loose peg that is not said, before it is rounded down to 0.1 mm.
+
+    Parameters
+    ----------
+    through
+        Its longest way through the halves, in sides.
+    side, clearance
+        In mm.
+    """
+    return (through + _INTO_TUBE) * side + clearance

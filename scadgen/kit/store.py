@@ -257,10 +257,21 @@ def _check_joint(one: Joint) -> None:
     if len(one.connectors) != count or not {*one.keys, *one.caps} <= {*range(count)}:
         msg = f"{one.title}: its lists do not belong together"
         raise ValueError(msg)
+    _check_ways(one)
+
+
+def _check_ways(one: Joint) -> None:
+    """Refuse ways that do not take a joint apart, or not all of one that is proved."""
+    there = {*range(len(one.pieces))}
     for way in one.ways:
-        if not {*way.moving} < {*range(len(one.pieces))}:
-            msg = f"way {way.name!r}: moves pieces that the joint lacks"
+        if not {*way.moving} <= there:
+            msg = f"{one.title}: ways: {way.name!r} moves pieces that are not there then"
             raise ValueError(msg)
+        there -= {*way.moving}
+    if one.verdicts and len(there) > 1:
+        left = ", ".join(one.pieces[n].part for n in sorted(there))
+        msg = f"{one.title}: ways: there is none by which {left} come apart"
+        raise ValueError(msg)
 
 
 def _refuse(reason: str) -> NoReturn:
