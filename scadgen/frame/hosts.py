@@ -1,0 +1,269 @@
+"""Which shape of joint stands at every vertex: at the rim often a larger one, filled up with caps.
+
+A vertex at the rim often lacks some edges of an inner one.  Caps, which are connectors without
+a tube, stand for them, so that both are the same joint.  Where it fits into the inner one in
+several ways, it takes the one in which its edges are like most inner ones.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from scadgen.frame.graph import Frame
+from scadgen.frame.keys import ANGLE
+from scadgen.frame.sameness import Sameness
+from scadgen.solid.affine import Floats, Ints
+
+__all__ = ["Hosted", "Shape", "hosted"]
+
+#: Directions of a joint at the end of a lone edge: its own, and two caps.
+_LONE = np.array([0.0, 2 * np.pi / 3, 4 * np.pi / 3])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Shape:
+    """Directions in which a joint has connectors.
+
+    Parameters
+    ----------
+    directions
+        ``(k,) float``: ascending from 0, in radians, caps' included.
+    symmetry
+        In how many ways it can be turned onto itself.
+    """
+
+    directions: Floats
+    symmetry: int
+
+    @property
+    def period(self) -> int:
+        """Slots that differ by this are alike."""
+        return len(self.directions) // self.symmetry
+
+    @property
+    def gaps(self) -> Floats:
+        """``(k,) float``: angle from each direction to the next."""
+        return np.diff(np.append(self.directions, 2 * np.pi))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Hosted:
+    """What shape stands where.
+
+    Parameters
+    ----------
+    shapes
+        Of all joints.
+    shape_of
+        ``(n,) int``: the shape of each vertex.
+    turn
+        ``(n,) float``: the angle that maps its shape's directions to the vertex's; as small as
+        the shape's symmetry allows.
+    slots
+        ``(m, 2) int``: the slot of its shape that each end of an edge takes.
+    """
+
+    shapes: tuple[Shape, ...]
+    shape_of: Ints
+    turn: Floats
+    slots: Ints
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Host:
+    """A joint whose directions a class of joints fits into.
+
+    Parameters
+    ----------
+    joint
+        Number of the class that it is; -1 for that of a lone end.
+    turn
+        The angle by which the class's directions are turned to be among its own.
+    slots
+        Which of its directions each of the class's becomes.
+    """
+
+    joint: int
+    turn: float
+    slots: tuple[int, ...]
+
+
+def hosted(frame: Frame, same: Sameness, *, rim: bool = True) -> Hosted:
+    """Find the shape of the joint at every vertex.
+
+    Parameters
+    ----------
+    frame
+        The frame.
+    same
+        What of it is the same.
+    rim
+        Whether a joint that lacks edges of another gets caps in their place.  Without, only
+        lone ends of edges get some.
+    """
+    inner = np.unique(same.joint_of[~_at_rim(frame)]).tolist()
+    hosts = _hosts(same, range(len(same.joints)) if not rim else inner)
+    choice = _Choice(frame, same, hosts)
+    chosen = choice.made()
+    used = sorted({host.joint for host in chosen})
+    found = [choice.standing(vertex, host) for vertex, host in enumerate(chosen)]
+    return Hosted(
+        tuple(choice.shape(number) for number in used),
+        np.array([used.index(host.joint) for host in chosen]),
+        np.array([turn for turn, _ in found]),
+        np.array(
+            [
+                [found[v][1][n] for v, n in zip(*pair, strict=True)]
+                for pair in zip(frame.edges.tolist(), choice.place.tolist(), strict=True)
+            ]
+        ),
+    )
+
+
+def _at_rim(frame: Frame) -> NDArray[np.bool_]:
+    """Which vertices are on the outline of the frame, or of one of its components."""
+    ends = frame.ends
+    count = len(ends.edge)
+    vertex = np.repeat(np.arange(len(frame.vertices)), frame.degree)
+    pairs = np.argsort(ends.edge, kind="stable").reshape(-1, 2)
+    twin = np.empty(count, dtype=np.int64)
+    twin[pairs] = pairs[:, ::-1]
+    # The way around a face on the left: from where an edge arrives to the end before it there.
+    start = ends.first[ends.neighbour]
+    after = start + (twin - start - 1) % frame.degree[ends.neighbour]
+    around = coo_array((np.ones(count), (np.arange(count), after)), shape=(count, count))
+    faces, face = connected_components(around, directed=False)
+    first, second = frame.vertices[vertex], frame.vertices[ends.neighbour]
+    area = np.bincount(face, first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0], faces)
+    at_rim = np.zeros(len(frame.vertices), dtype=bool)
+    at_rim[vertex[area[face] <= 0]] = True
+    return at_rim
+
+
+def _hosts(same: Sameness, kept: Collection[int]) -> list[list[_Host]]:
+    """The ways in which each class of joints may stand: as itself, if it is to be kept.
+
+    It fits into classes with more edges; those that are most used come first.
+    """
+    directions = [joint.directions for joint in same.joints]
+    found: list[list[_Host]] = []
+    for number, own in enumerate(directions):
+        larger = [n for n, other in enumerate(directions) if len(other) > len(own)]
+        larger = [] if number in kept else larger
+        larger.sort(key=lambda n: (-len(same.joints[n].vertices), n))
+        fits = [host for n in larger for host in _fits(own, n, directions[n])]
+        alone = _Host(number, 0.0, tuple(range(len(own)))) if len(own) > 1 else _Host(-1, 0.0, (0,))
+        found.append(fits or [alone])
+    return [list(_roots(found, hosts)) for hosts in found]
+
+
+def _fits(own: Floats, number: int, other: Floats) -> Iterator[_Host]:
+    """The ways that put some directions among those of another class."""
+    for start in other.tolist():
+        off = (own[:, None] + start - other + np.pi) % (2 * np.pi) - np.pi
+        slots = np.abs(off).argmin(axis=1)
+        if (np.abs(off[np.arange(len(own)), slots]) < ANGLE).all():
+            yield _Host(number, start, tuple(slots.tolist()))
+
+
+def _roots(hosts: Sequence[Sequence[_Host]], own: Sequence[_Host]) -> Iterator[_Host]:
+    """Those of some hosts that have no host of their own."""
+    return (host for host in own if host.joint < 0 or hosts[host.joint][0].joint == host.joint)
+
+
+class _Choice:
+    """The choice of a host for each vertex."""
+
+    def __init__(self, frame: Frame, same: Sameness, hosts: Sequence[Sequence[_Host]]) -> None:
+        self._frame, self._same, self._hosts = frame, same, hosts
+        #: Which direction of its class each end of an edge takes.
+        self.place = (frame.slots - same.shift[frame.edges]) % frame.degree[frame.edges]
+        self._ends: list[list[tuple[int, int]]] = [[] for _ in frame.vertices]
+        for edge, pair in enumerate(frame.edges.tolist()):
+            for end, vertex in enumerate(pair):
+                self._ends[vertex].append((edge, end))
+
+    def shape(self, joint: int) -> Shape:
+        """The shape of a class of joints."""
+        if joint < 0:
+            return Shape(_LONE, 3)
+        found = self._same.joints[joint]
+        return Shape(found.directions, found.symmetry)
+
+    def standing(self, vertex: int, host: _Host) -> tuple[float, tuple[int, ...]]:
+        """Turn and slots of a joint in a host, turned as little as its symmetry allows.
+
+        A lone end stays as it is: with its edge in the first slot.
+        """
+        turn = float(self._same.turn[vertex]) - host.turn
+        if host.joint < 0:
+            return turn, host.slots
+        shape = self.shape(host.joint)
+        step = 2 * np.pi / shape.symmetry
+        steps = int((turn + ANGLE) // step)
+        count = len(shape.directions)
+        return turn - steps * step, tuple((n + steps * shape.period) % count for n in host.slots)
+
+    def made(self) -> list[_Host]:
+        """The host of each vertex."""
+        options = [self._hosts[joint] for joint in self._same.joint_of.tolist()]
+        chosen = {v: hosts[0] for v, hosts in enumerate(options) if len(hosts) == 1}
+        usual = {
+            pair
+            for edge, ends in enumerate(self._frame.edges.tolist())
+            if set(ends) <= set(chosen)
+            for pair in itertools.permutations(
+                self._end(edge, end, chosen[v]) for end, v in enumerate(ends)
+            )
+        }
+        turns = {(host.joint, self._steps(self.standing(v, host)[0])) for v, host in chosen.items()}
+        for vertex in self._outwards(chosen):
+            chosen[vertex] = max(
+                options[vertex],
+                key=lambda host: (
+                    self._likeness(vertex, host, chosen, usual),
+                    (host.joint, self._steps(self.standing(vertex, host)[0])) in turns,
+                ),
+            )
+        return [chosen[vertex] for vertex in range(len(options))]
+
+    def _steps(self, turn: float) -> int:
+        """A turn in steps that are coarse enough to be the same."""
+        return round(turn % (2 * np.pi) / (4 * ANGLE)) % round(np.pi / (2 * ANGLE))
+
+    def _end(self, edge: int, end: int, host: _Host) -> tuple[int, int]:
+        """Joint and slot of an edge's end in a host."""
+        vertex = int(self._frame.edges[edge, end])
+        return host.joint, self.standing(vertex, host)[1][int(self.place[edge, end])]
+
+    def _outwards(self, chosen: Collection[int]) -> Iterator[int]:
+        """The vertices that are not chosen, those beside chosen ones first."""
+        reached, wave = set(chosen), set(chosen)
+        while wave:
+            wave = {
+                int(self._frame.edges[edge, 1 - end]) for v in wave for edge, end in self._ends[v]
+            } - reached
+            yield from sorted(wave)
+            reached |= wave
+        yield from sorted(set(range(len(self._ends))) - reached)
+
+    def _likeness(
+        self,
+        vertex: int,
+        host: _Host,
+        chosen: dict[int, _Host],
+        usual: Collection[tuple[tuple[int, int], ...]],
+    ) -> int:
+        """How many of a vertex's edges would be like usual ones, as far as is known."""
+        return sum(
+            (self._end(edge, end, host), self._end(edge, 1 - end, chosen[other])) in usual
+            for edge, end in self._ends[vertex]
+            if (other := int(self._frame.edges[edge, 1 - end])) in chosen
+        )
