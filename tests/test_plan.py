@@ -22,14 +22,19 @@ from scadgen.errors import InputError
 from scadgen.frame.layout import LAYOUTS
 from scadgen.interlock.contacts import find_contacts
 from scadgen.interlock.escape import Attempts
+from scadgen.interlock.path import Path
+from scadgen.joint.weave import BUILT_IN
+from scadgen.kit.build import Request, build
 from scadgen.kit.store import dumps as kit_text
 from scadgen.plan import order, search
 from scadgen.plan.order import make_plan
 from scadgen.plan.pegs import count_pegs
 from scadgen.plan.proof import Prover
+from scadgen.plan.rows import Rows
 from scadgen.plan.standing import stand
 from scadgen.plan.told import plan_entry
-from scadgen.plan.whole import frame_contacts, whole_frame
+from scadgen.plan.touching import Touching
+from scadgen.plan.whole import whole_frame
 
 #: Frames that are planned: name, key, rows, columns.
 FRAMES = [("hexagonal", "fixed", 1, 1), ("square", "fixed", 1, 1), ("square", "loose", 1, 1)]
@@ -80,14 +85,18 @@ def backwards(entry):
     assert all(len(table) == 1 for table in tables if table)
 
 
-def solid(made, part):
-    """A part of the frame as manifold3d takes it, where it stands."""
+def corners(made, part):
+    """Corners of a part of the frame where it stands."""
     place = made.placements[part]
     points = made.parts[place.part].points(made.values) * ([1, -1, -1] if place.flip else [1, 1, 1])
     points = Rotation.from_euler("z", place.turn, degrees=True).apply(points)
-    points = points + made.values["edge_length"] * np.array([*place.at, 0.0])
-    mesh = Mesh64(points, made.parts[place.part].triangles.astype(np.uint64))
-    return Manifold(mesh)
+    return points + made.values["edge_length"] * np.array([*place.at, 0.0])
+
+
+def solid(made, part):
+    """A part of the frame as manifold3d takes it, where it stands."""
+    triangles = made.parts[made.placements[part].part].triangles
+    return Manifold(Mesh64(corners(made, part), triangles.astype(np.uint64)))
 
 
 def poses(entry, move, step=1.0):
@@ -178,17 +187,19 @@ def test_rows_do_not_slide_the_other_way():
     assert found.blocking is not None
 
 
-def test_contacts_of_the_frame_are_those_of_its_parts():
-    made = checked(FRAMES[0])
+def real_contacts(made):
+    """All contacts of a frame's parts where they stand."""
     values = {**made.values, "clearance": 0.0, "peg_clearance": 0.0}
-    meshes = []
-    for place in made.placements:
-        points = made.parts[place.part].points(values)
-        points = points * ([1, -1, -1] if place.flip else [1, 1, 1])
-        points = Rotation.from_euler("z", place.turn, degrees=True).apply(points)
-        points = points + values["edge_length"] * np.array([*place.at, 0.0])
-        meshes.append((points, made.parts[place.part].triangles))
-    real, ours = find_contacts(meshes, 1e-4), frame_contacts(stand(made))
+    tight = replace(made, values=values)
+    parts = enumerate(made.placements)
+    meshes = [(corners(tight, n), made.parts[place.part].triangles) for n, place in parts]
+    return find_contacts(meshes, 1e-4)
+
+
+@pytest.mark.parametrize("which", [Touching.all, Touching.extreme, Touching.directions])
+def test_contacts_of_the_frame_are_those_of_its_parts(which):
+    made = checked(FRAMES[0])
+    real, ours = real_contacts(made), which(Touching(stand(made)))
     pairs = [{(min(p), max(p)) for p in zip(c.first, c.second, strict=True)} for c in (real, ours)]
     assert pairs[0] == pairs[1]
 
@@ -206,13 +217,48 @@ def test_the_finished_frame_holds_unless_pegs_slide(frame):
 
 
 @every
-def test_without_a_peg_something_moves(frame):
-    standing = stand(checked(frame))
-    peg = next(n for n, p in enumerate(standing.kit.placements) if p.role == "peg")
-    whole = whole_frame(standing, gone=(peg,))
+def test_what_can_move_is_in_the_way_of_no_contact_at_all(frame):
+    made = checked(frame)
+    contacts = real_contacts(made)
+    for one in whole_frame(stand(made)).loose:
+        inside = [np.isin(part, one.parts) for part in (contacts.first, contacts.second)]
+        across = inside[0] != inside[1]
+        away = np.where(inside[1], 1.0, -1.0) * (contacts.normals @ [*one.way, 0.0])
+        assert across.any()
+        assert away[across].min() > -1e-6
+
+
+def test_with_pegs_that_are_too_small_halves_move():
+    made = checked(FRAMES[2])
+    peg = made.parts["peg"]
+    small = replace(peg, coefficients={k: 0.5 * v for k, v in peg.coefficients.items()})
+    whole = whole_frame(stand(replace(made, parts={**made.parts, "peg": small})))
     assert not whole.held
-    moving = {standing.kit.placements[n].role for n in whole.loose[-1].parts}
+    moving = {made.placements[n].role for n in whole.loose[-1].parts}
     assert moving & {"half_a", "half_b"}
+
+
+def test_rows_slide_until_a_plane_is_between_however_wide_the_rings_are():
+    wide = build(
+        Request("hexagonal", detail="draft", weave=replace(BUILT_IN["3-fixed"], ring_ratio=6))
+    )
+    made = framed(wide, 2, 1)
+    everything = set(range(len(made.placements)))
+    for choice in next(Rows(stand(made)).choices()):
+        turn = math.radians(choice.turn)
+        way = np.array([math.cos(turn), math.sin(turn), 0.0])
+        near = [corners(made, n) @ way for n in everything - choice.parts]
+        gone = [corners(made, n) @ way + choice.path.poses[-1][0, 3] for n in choice.parts]
+        assert min(map(min, gone)) > max(map(max, near))
+
+
+@every
+def test_ways_are_written_as_they_are_proved(frame):
+    plan, entry = planned(frame), told(frame)
+    for way, written in zip(plan.ways, entry["ways"], strict=True):
+        again = Path.through(np.array(written["steps"]), np.array(written["middle_mm"]))
+        assert again.poses == pytest.approx(way.poses, rel=0, abs=1e-12)
+        assert again.middle.tolist() == way.middle.tolist()
 
 
 def test_loose_pegs_are_as_many_as_joints():

@@ -80,7 +80,7 @@ class Plan:
     steps
         In order.
     ways
-        The ways out, in mm, each with its joint at the origin.
+        The ways out, in mm, each with its joint at the origin; as they are written.
     proofs
         How many different pairs of parts were looked at, one moving past the other.
     left
