@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -91,6 +91,11 @@ class Standing:
             for part in sorted({*site.parts.values(), *site.tubes.values()}):
                 found[part].append(number)
         return found
+
+    def meeting(self, parts: Collection[int], others: Collection[int]) -> list[int]:
+        """Numbers of the joints at which some parts meet others."""
+        near = {number for part in parts for number in self.sites_of[part]}
+        return sorted(near & {number for part in others for number in self.sites_of[part]})
 
     def keys(self, site: Site) -> dict[int, int | None]:
         """The element on the edge of each of a joint's keys, if there is one, by its half A."""

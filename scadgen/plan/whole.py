@@ -50,6 +50,11 @@ class Loose:
     parts: tuple[int, ...]
     way: tuple[float, float]
 
+    @property
+    def degrees(self) -> float:
+        """The direction as an angle."""
+        return math.degrees(math.atan2(self.way[1], self.way[0]))
+
 
 @dataclass(frozen=True, slots=True)
 class Whole:
