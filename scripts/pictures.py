@@ -18,6 +18,8 @@ from scadgen.errors import ScadgenError
 from scadgen.frame.sameness import sameness
 from scadgen.frame.snapping import move_vertices
 from scadgen.kit.build import VALENCE, Request, build
+from scadgen.plan.order import make_plan
+from scadgen.plan.picture import step_pictures
 from scadgen.readers.read import read
 
 __all__ = ["frames", "main", "pictures"]
@@ -42,6 +44,7 @@ def pictures(frame: str) -> Iterator[tuple[str, bytes]]:
     yield f"{frame}_joint_apart.png", joint_picture(kit, _APART, size=_SIZE)
     yield f"{frame}_assembly.png", assembly_picture(kit, size=_SIZE)
     yield f"{frame}_parts.png", parts_picture(kit, size=_SIZE)
+    yield f"{frame}_step.svg", step_pictures(make_plan(kit))["plan-02.svg"].encode()
 
 
 def frames() -> Iterator[tuple[str, bytes]]:

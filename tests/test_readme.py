@@ -52,6 +52,16 @@ def test_volumes_and_masses_are_those_of_boxes():
         assert float(rows["all"][column]) == pytest.approx(sum(parts), abs=0.3)
 
 
+def test_a_proved_kit_says_how_its_order_is_planned():
+    checked = with_joint(stub_kit(), verdicts={"whole connectors lock": "9 contacts in balance"})
+    for kit, proved in ((checked, True), (stub_kit(), False)):
+        text = readme(kit)
+        assert (
+            "`scadgen plan` of this folder" in section(text, "How to put it together")
+        ) == proved
+        assert ("| `plan/` |" in text) == proved
+
+
 def test_spares_are_for_small_pieces_only():
     for row in table(readme(stub_kit()), "What to print")[:-1]:
         name, needed, spare = row[1].strip("`"), int(row[3]), row[4]

@@ -19,6 +19,7 @@ from scadgen.interlock.assembly import Assembly, make_assembly
 from scadgen.interlock.certificate import BALANCED, check_certificate
 from scadgen.interlock.contacts import Contacts, Mesh, find_contacts
 from scadgen.interlock.play import Loosest, loosest, measured
+from scadgen.interlock.stops import SLIDES, Stop, stopped
 from scadgen.interlock.verdict import Certificate, Motion, verdict
 from scadgen.joint.joint import DETAILS, Detail
 from scadgen.kit.model import Joint, Kit
@@ -26,6 +27,7 @@ from scadgen.solid.affine import Floats
 
 __all__ = [
     "TIP",
+    "TOUCH",
     "connectors_lock",
     "joint_locks",
     "largest_play",
@@ -34,13 +36,10 @@ __all__ = [
 ]
 
 #: Faces closer than this, in sides, touch; without clearance they coincide.
-_TOUCH = 1e-5
+TOUCH = 1e-5
 
 #: Sine of the angle that a peg's way out may have to its edge.
 _STRAIGHT = 1e-3
-
-#: Cosine of the angle between a contact's normal and a peg's way up to which it only slides.
-_SLIDES = 1e-6
 
 #: Where play is measured: at a tube's tip, this far from the ring's axis, in sides.
 TIP = 3.0
@@ -136,34 +135,15 @@ def only_these_move(
     yield _locked(f"with {what} held the joint locks", meshes, contacts, held=(*held, *axes))
     # Pegs and other parts may still move together, which neither of these shows.
     name = "no part moves but the peg" if one else "no part moves but the pegs"
-    yield _locked(name, meshes, _stopped(assembly, held[0], axes), held)
+    stops = [Stop(n, (held[0],), assembly.middles[n], axis) for n, axis in axes.items()]
+    yield _locked(name, meshes, stopped(contacts, stops), held)
 
 
 def _slides(contacts: Contacts, part: int, axis: Floats) -> bool:
     """Whether no contact of a part is in its way along an axis, at least to one side."""
     along = contacts.normals @ axis
     away = np.concatenate([along[contacts.second == part], -along[contacts.first == part]])
-    return bool((away > -_SLIDES).all() or (away < _SLIDES).all())
-
-
-def _stopped(assembly: Assembly, held: int, axes: Mapping[int, Floats]) -> Contacts:
-    """Contacts that lock only what moves by nothing but some parts along their axes.
-
-    Those that open on a part's way along its axis are left out, which lets more move, and two
-    stop its middle there.  All others only slide on that way, so that they still allow a motion
-    less what it takes each part along its axis; if nothing can move like that, none was more.
-    """
-    contacts, stay = assembly.contacts, np.ones(len(assembly.contacts), dtype=np.bool_)
-    for part, axis in axes.items():
-        mine = (contacts.first == part) | (contacts.second == part)
-        stay &= ~mine | (np.abs(contacts.normals @ axis) < _SLIDES)
-    left, pegs = contacts.some(np.flatnonzero(stay)), np.repeat(list(axes), 2)
-    return Contacts(
-        np.vstack([left.points, assembly.middles[pegs]]),
-        np.vstack([left.normals, *(sign * axis for axis in axes.values() for sign in (1, -1))]),
-        np.append(left.first, np.full(len(pegs), held)),
-        np.append(left.second, pegs),
-    )
+    return bool((away > -SLIDES).all() or (away < SLIDES).all())
 
 
 def _along(found: Motion, axes: Mapping[int, Floats]) -> bool:
@@ -245,7 +225,7 @@ def _exact(kit: Kit, joint: Joint, times: int) -> tuple[list[Mesh], Contacts]:
 
 
 def _contacts(kit: Kit, meshes: Sequence[Mesh]) -> Contacts:
-    return find_contacts(meshes, _TOUCH * kit.values["side"])
+    return find_contacts(meshes, TOUCH * kit.values["side"])
 
 
 def _locked(name: str, meshes: Sequence[Mesh], contacts: Contacts, held: Collection[int]) -> Result:

@@ -28,7 +28,7 @@ from scadgen.interlock.widen import widened
 from scadgen.kit.model import Joint, Kit, Way
 from scadgen.kit.store import WAY_DECIMALS
 
-__all__ = ["PATIENCE", "come_apart"]
+__all__ = ["LEAST", "LOOK", "PATIENCE", "come_apart"]
 
 #: Seconds after which the search for what comes out next is given up.
 PATIENCE = 180.0
@@ -37,7 +37,7 @@ PATIENCE = 180.0
 _SEEDS = (1, 2, 3)
 
 #: Gap that a piece keeps on its way, as shares of the clearance: at least; known at most.
-_LEAST, _LOOK = 0.05, 2.0
+LEAST, LOOK = 0.05, 2.0
 
 #: Gap, as a share of the clearance, of a way that cannot be much wider.
 _ROOMY = 0.9
@@ -167,11 +167,11 @@ class _Bodies:
 
     def gap(self, way: Way, present: set[int]) -> float:
         """Smallest gap on a way, in mm; 0 where it is not proven that there is one."""
-        path, least = way.path.scaled(self.side), _LEAST * self.clearance
+        path, least = way.path.scaled(self.side), LEAST * self.clearance
         if not least > 0:
             return 0.0
         bodies = self.bodies(way.moving, present)
-        return narrowest(path, *bodies, least=least, look=_LOOK * self.clearance)
+        return narrowest(path, *bodies, least=least, look=LOOK * self.clearance)
 
     def known(self, ways: Sequence[Way], present: set[int]) -> tuple[Way, float] | None:
         """The first of some ways that is one here too, and its smallest gap."""
@@ -217,7 +217,7 @@ class _Bodies:
 
     def widened(self, way: Way, present: set[int]) -> tuple[Way, float] | None:
         """A way drawn away from the walls, if it is one then, and its smallest gap."""
-        least = _LEAST * self.clearance
+        least = LEAST * self.clearance
         if not least > 0:
             return None
         bodies = self.bodies(way.moving, present)

@@ -39,8 +39,9 @@ def plan(folder: Path, output: Path | None, as_json: bool) -> int:  # noqa: FBT0
     from scadgen.plan.folder import check_plan_folder, write_plan
     from scadgen.plan.order import make_plan
     from scadgen.plan.picture import step_pictures
-    from scadgen.plan.told import dumps, plan_entry, plan_text
+    from scadgen.plan.told import dumps, plan_entry
     from scadgen.plan.whole import whole_frame
+    from scadgen.plan.words import plan_text
 
     kit = load(folder)
     target = output or (folder if folder.is_dir() else folder.parent) / "plan"

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
 from pathlib import Path
 
 from scadgen.emit.macro import macro
@@ -17,18 +15,29 @@ from scadgen.emit.picture import assembly_picture, preview
 from scadgen.emit.placing import placing
 from scadgen.emit.readme import readme
 from scadgen.emit.scad import parameter_sets, scad
+from scadgen.emit.staged import Sort, check_target, refusing, write_all
 from scadgen.errors import InputError
 from scadgen.kit.model import Kit
 from scadgen.kit.store import FORMAT, dumps
 
-__all__ = ["check_bill", "check_folder", "files_of", "update_bill", "write_kit"]
+__all__ = ["PLAN_FILES", "check_bill", "check_folder", "files_of", "update_bill", "write_kit"]
 
 #: What a new kit makes stale: what the kit's Makefile and `scadgen render` write, and what not
 #: every kit has.
 _STALE = {"stl", "3mf", "png", "plates", ".build", "assembly.png", "placing.svg"}
 
-#: The files of a plan of the kit, which is stale as well.
-_PLAN = ("plan.json", "plan.txt", "plan-*.svg")
+#: The files of a plan, which a new kit makes stale, and so does a new plan.
+PLAN_FILES = ("plan.json", "plan.txt", "plan-*.svg")
+
+
+def _is_stale(entry: Path) -> bool:
+    """Whether something in a kit's folder is of the old kit: a plan, if nothing else is in it."""
+    if entry.name != "plan" or entry.is_symlink() or not entry.is_dir():
+        return entry.name in _STALE
+    return all(any(file.match(pattern) for pattern in PLAN_FILES) for file in entry.iterdir())
+
+
+_KIT = Sort("kit", "kit.json", FORMAT, _is_stale)
 
 
 def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
@@ -70,18 +79,14 @@ def write_kit(kit: Kit, folder: Path, *, progress: Callable[[str], None] = lambd
         The folder is a file, holds something else, or cannot be written.  Nothing is
         changed then.
     """
-    target = check_folder(folder)
-    with _refusing(folder):
-        target.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=target.parent, prefix=".scadgen-") as name:
-            stage = Path(name) / "kit"
-            stage.mkdir()
-            for file, write in files_of(kit).items():
-                progress(file)
-                text = write(kit)
-                data = text if isinstance(text, bytes) else text.encode()
-                (stage / file).write_bytes(data)
-            _swap(stage, target, Path(name) / "old")
+    files = files_of(kit).items()
+
+    def made() -> Iterator[tuple[str, str | bytes]]:
+        for file, write in files:
+            progress(file)
+            yield file, write(kit)
+
+    write_all(made(), folder, _KIT)
 
 
 def check_bill(kit: Kit, path: Path) -> Path:
@@ -124,7 +129,10 @@ def update_bill(kit: Kit, folder: Path) -> None:
         The folder cannot be written.  Nothing is changed then.
     """
     texts = {name: files_of(kit)[name](kit) for name in _of_bill(kit)}
-    with _refusing(folder), tempfile.TemporaryDirectory(dir=folder, prefix=".scadgen-") as name:
+    with (
+        refusing(folder, _KIT),
+        tempfile.TemporaryDirectory(dir=folder, prefix=".scadgen-") as name,
+    ):
         new, old = Path(name) / "new", Path(name) / "old"
         new.mkdir()
         old.mkdir()
@@ -157,69 +165,4 @@ def check_folder(folder: Path) -> Path:
     InputError
         It is a file, holds something else, or cannot be looked at.
     """
-    with _refusing(folder):
-        target = Path(os.path.realpath(folder))
-        if target.exists() and not target.is_dir():
-            msg = f"cannot write the kit to {str(folder)!r}: it is a file; name a folder"
-            raise InputError(msg)
-        if target == Path.cwd().resolve():
-            msg = f"cannot write the kit to {str(folder)!r}: it is the current folder; name another"
-            raise InputError(msg)
-        if target.is_dir() and any(target.iterdir()) and not _holds_kit(target):
-            msg = (
-                f"cannot write the kit to {str(folder)!r}: it holds other things; name a new folder"
-            )
-            raise InputError(msg)
-        return target
-
-
-def _holds_kit(folder: Path) -> bool:
-    """Whether a folder holds a kit, of whatever version."""
-    try:
-        start = (folder / "kit.json").read_bytes()[:200]
-    except FileNotFoundError:
-        return False
-    return f'"format": "{FORMAT}"'.encode() in start
-
-
-@contextmanager
-def _refusing(folder: Path) -> Iterator[None]:
-    """Turn what the system says of a folder into one line."""
-    try:
-        yield
-    except OSError as error:
-        msg = (
-            f"cannot write the kit to {str(folder)!r}: {error.strerror or error}; "
-            "name a folder in a writable place with space left"
-        )
-        raise InputError(msg) from error
-
-
-def _swap(stage: Path, target: Path, old: Path) -> None:
-    """Put the staged folder in the target's place, with what else the target holds."""
-    if not target.exists():
-        stage.rename(target)
-        return
-    ours = {entry.name for entry in stage.iterdir()} | _STALE
-    kept = [
-        entry.name for entry in target.iterdir() if entry.name not in ours and not _is_plan(entry)
-    ]
-    for name in kept:
-        source = target / name
-        if source.is_dir() and not source.is_symlink():
-            shutil.copytree(source, stage / name, symlinks=True)
-        else:
-            shutil.copy2(source, stage / name, follow_symlinks=False)
-    target.rename(old)
-    try:
-        stage.rename(target)
-    except BaseException:  # an interrupt as well: the old kit comes back
-        old.rename(target)
-        raise
-
-
-def _is_plan(entry: Path) -> bool:
-    """Whether a folder holds a plan, and nothing else."""
-    if entry.name != "plan" or entry.is_symlink() or not entry.is_dir():
-        return False
-    return all(any(file.match(pattern) for pattern in _PLAN) for file in entry.iterdir())
+    return check_target(folder, _KIT)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 
 from scadgen.interlock.path import Path
 from scadgen.plan.standing import Standing
@@ -25,8 +26,6 @@ class Move:
         Number of its way out in the plan's ways; backwards it is the way in.
     at, turn
         Where that way's origin stands, in edge lengths, and how it is turned, in degrees.
-    order
-        Within the step: those with the same number go in in any order.
     gap
         Smallest gap on the way, in mm; 0 if it is not proved.
     reason
@@ -38,7 +37,6 @@ class Move:
     way: int
     at: tuple[float, float]
     turn: float
-    order: int
     gap: float
     reason: str
 
@@ -50,14 +48,14 @@ class Move:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """Moves of one sort.
+    """Moves of one sort, in any order among each other.
 
     Parameters
     ----------
     what
         One of ``connectors``, ``halves``, ``pegs``, ``rows``.
     moves
-        In order.
+        Each is proved past all that is there before any of them.
     """
 
     what: str
@@ -69,7 +67,7 @@ class Step:
         return all(move.proved for move in self.moves)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Plan:
     """How a frame is put together.
 
@@ -80,7 +78,7 @@ class Plan:
     steps
         In order.
     ways
-        The ways out, in mm, each with its joint at the origin.
+        The ways out, in mm, each with its joint at the origin; as they are written.
     proofs
         How many different pairs of parts were looked at, one moving past the other.
     left
@@ -105,5 +103,22 @@ class Plan:
 
     def first(self) -> frozenset[int]:
         """Parts that are there before all moves: none of them goes in alone."""
-        alone = {move.parts[0] for move in self.moves() if len(move.parts) == 1}
-        return frozenset(range(len(self.standing.kit.placements))) - alone
+        return frozenset().union(*self.tables[0])
+
+    @cached_property
+    def tables(self) -> list[list[frozenset[int]]]:
+        """What is joined before each step, and at the end: all that is there, in sets."""
+        joined = [frozenset(range(len(self.standing.kit.placements)))]
+        found = [joined]
+        for step in reversed(self.steps):
+            gone = frozenset().union(*(move.parts for move in step.moves))
+            apart = [frozenset(move.parts) for move in step.moves if len(move.parts) > 1]
+            joined = [rest for table in joined if (rest := table - gone)] + apart
+            found.append(joined)
+        return found[::-1]
+
+    def onto(self, number: int, move: Move) -> frozenset[int]:
+        """What a move of a step joins: all that is joined to it after the step but what moves."""
+        moving = frozenset().union(*(one.parts for one in self.steps[number - 1].moves))
+        table = next(table for table in self.tables[number] if move.parts[0] in table)
+        return table - moving

@@ -12,13 +12,12 @@ out may be taken out at once: no choice leads astray.
    hangs on all its connectors but one are single parts: one of them comes out on its joint's
    way, or all of them together do, as the last one would out of them.
 
-Moves of a step with one number are proved with all there that is there before any of them.
+Moves of a step are proved with all there that is there before any of them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -34,9 +33,6 @@ from scadgen.plan.standing import Site, Standing, stand
 from scadgen.plan.trees import Trees
 
 __all__ = ["make_plan"]
-
-#: Steps beyond which those of rows are told as one.
-_MANY = 8
 
 #: Choices for which a way is searched, where no known one is proved for any.
 _SEARCHED = 4
@@ -85,7 +81,10 @@ class _Planner:
         self._pieces("pegs", ("peg",))
         self._pieces("halves", ("half_a", "half_b"))
         self._connectors()
-        steps = tuple(map(_backwards, reversed(self._steps)))
+        steps = tuple(
+            Step(step.what, tuple(sorted(step.moves, key=lambda move: (move.joint, move.parts))))
+            for step in reversed(self._steps)
+        )
         left = sorted(set().union(*(table for table in self._tables if len(table) > 1)))
         ways, known = tuple(self._prover.ways), len(self._prover.known)
         return Plan(self._standing, steps, ways, known, tuple(left))
@@ -93,7 +92,6 @@ class _Planner:
     def _rows(self) -> None:
         """Take rows apart that parallel pegs hold."""
         rows = Rows(self._standing)
-        waves: list[list[Move]] = []
         while len(rows.left) > 1:
             wave: list[Move] = []
             for choices in rows.choices():
@@ -105,11 +103,7 @@ class _Planner:
             self._take(wave, "rows apart")
             for move in wave:
                 rows.take(move.parts)
-            waves.append(wave)
-        if len(waves) > _MANY:
-            self._steps.append(Step("rows", tuple(_numbered(waves))))
-        else:
-            self._steps += [Step("rows", tuple(_numbered([wave]))) for wave in waves]
+            self._steps.append(Step("rows", tuple(wave)))
 
     def _pieces(self, what: str, roles: tuple[str, ...]) -> None:
         """Take pieces of all joints out that are parts of their own, in the order of the ways."""
@@ -127,7 +121,7 @@ class _Planner:
                     choice = Choice(parts, number, path, site.at, site.turn)
                     wave.append(self._lifted(choice, search=True))
             self._take(wave, f"{what} out")
-            self._steps.append(Step(what, tuple(_numbered([wave]))))
+            self._steps.append(Step(what, tuple(wave)))
 
     def _own(self, site: Site, way: Way, roles: tuple[str, ...]) -> bool:
         """Whether a way is of pieces with these roles, all of them parts of their own."""
@@ -139,12 +133,9 @@ class _Planner:
 
     def _connectors(self) -> None:
         """Take elements and whole connectors apart."""
-        waves: list[list[Move]] = []
         while wave := self._connector_wave():
             self._take(wave, "elements apart")
-            waves.append(wave)
-        if waves:
-            self._steps.append(Step("connectors", tuple(_numbered(waves))))
+            self._steps.append(Step("connectors", tuple(wave)))
 
     def _connector_wave(self) -> list[Move]:
         """All that comes out next, each whatever the others do; unproved only if nothing is."""
@@ -222,7 +213,7 @@ class _Planner:
             x, y = self._unit * np.array(place.at)
             reason = f"no way is proved past {place.part} at {x:.4g}, {y:.4g}"
         parts = tuple(sorted(choice.parts))
-        return Move(parts, choice.joint, found.way, choice.at, choice.turn, 0, found.gap, reason)
+        return Move(parts, choice.joint, found.way, choice.at, choice.turn, found.gap, reason)
 
     def _table(self, parts: Iterable[int]) -> set[int]:
         """All that these parts are with."""
@@ -244,17 +235,3 @@ class _Planner:
         """About how much is done: parts in rows move twice."""
         twice = 2 if self._standing.kit.key == "fixed" else 1
         return min(self._done / (twice * len(self._standing.kit.placements)), 1.0)
-
-
-def _numbered(waves: Sequence[Sequence[Move]]) -> Iterator[Move]:
-    """Moves of waves, each with its wave's number from 1."""
-    for number, wave in enumerate(waves, 1):
-        for move in wave:
-            yield replace(move, order=number)
-
-
-def _backwards(step: Step) -> Step:
-    """A step the other way round."""
-    last = max(move.order for move in step.moves)
-    moves = [replace(move, order=last + 1 - move.order) for move in reversed(step.moves)]
-    return Step(step.what, tuple(sorted(moves, key=lambda move: move.order)))

@@ -19,9 +19,11 @@ import numpy as np
 import shapely
 
 from scadgen.check.geometry import standing as stand_at
+from scadgen.check.ways import LEAST, LOOK
 from scadgen.frame.placement import Placement
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.path import Path
+from scadgen.kit.store import WAY_DECIMALS
 from scadgen.plan.standing import Standing
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.gap import solid
@@ -31,19 +33,13 @@ if TYPE_CHECKING:
 
 __all__ = ["Found", "Prover"]
 
-#: Gap that a part keeps on its way, as a share of the clearance.
-_LEAST = 0.05
-
-#: Gap beyond which none is looked for at first, likewise.
-_LOOK = 2.0
-
 #: Gaps beyond this are not looked for, in sides.
 _FAR = 2.0
 
 #: Poses of a proof after which some ahead are looked at, and how many: a narrow way takes many.
 _LONG, _AHEAD = 60, 24
 
-#: Decimals, in mm and degrees, to which places are compared.
+#: Decimals, in mm and degrees, to which places are compared; a thousandth of the least gaps.
 _DECIMALS = 6
 
 #: Step with which a way's reach is measured, in sides.
@@ -87,8 +83,8 @@ class Prover:
         self._standing = standing
         kit = standing.kit
         self._side, self._unit = kit.values["side"], kit.values["edge_length"]
-        self._least = _LEAST * kit.values["clearance"]
-        self._look = _LOOK * kit.values["clearance"]
+        self._least = LEAST * kit.values["clearance"]
+        self._look = LOOK * kit.values["clearance"]
         self._bodies: dict[tuple[str, bool], _Body] = {}
         self._numbers: dict[bytes, int] = {}
         self._asides: dict[tuple[object, ...], float] = {}
@@ -123,11 +119,12 @@ class Prover:
         return np.array([widths[place.part] for place in self._standing.kit.placements])
 
     def number(self, path: Path) -> int:
-        """The number of a way, the same for the same one."""
-        key = path.poses.round(9).tobytes() + path.middle.round(9).tobytes()
+        """The number of a way, the same for the same one: as it is written, which is proved."""
+        written = np.vstack([path.steps(), [*path.middle, 0.0, 0.0, 0.0]]).round(WAY_DECIMALS) + 0.0
+        key = written.tobytes()
         if key not in self._numbers:
             self._numbers[key] = len(self.ways)
-            self.ways.append(path)
+            self.ways.append(Path.through(written[:-1], written[-1, :3]))
         return self._numbers[key]
 
     def mesh(self, part: int, at: tuple[float, float], turn: float) -> Mesh:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator
 
 import numpy as np
 
@@ -64,17 +64,21 @@ class Rows:
     def _choice(self, row: frozenset[int], way: Floats) -> Choice:
         """A row on its way, until a plane across it is between the row and all that is left."""
         standing = self._standing
-        side, unit = standing.kit.values["side"], standing.kit.values["edge_length"]
+        side = standing.kit.values["side"]
         joint = min(n for part in row for n in standing.sites_of[part])
         rest = frozenset().union(*self.left) - row
-        lengths = [standing.length(n) for n in standing.elements]
-        mine, others = (self._along(group, way) for group in (row, rest))
-        far = unit * (max(others) - min(mine) + 2 * max(lengths)) + 10 * side
+        (_, ahead), (behind, _) = (self._span(group, way) for group in (rest, row))
+        far = ahead - behind + side
         steps = np.zeros((2, 6))
         steps[1, 0] = side * np.ceil(far / side)
         turn = float(np.degrees(np.arctan2(way[1], way[0])))
         path = Path.through(steps, np.zeros(3))
         return Choice(row, joint, path, standing.sites[joint].at, turn)
 
-    def _along(self, parts: Collection[int], way: Floats) -> Sequence[float]:
-        return [float(np.array(self._standing.kit.placements[n].at) @ way) for n in parts]
+    def _span(self, parts: Collection[int], way: Floats) -> tuple[float, float]:
+        """Between what planes across a way some parts are, in mm."""
+        kit = self._standing.kit
+        some = sorted(parts)
+        at = kit.values["edge_length"] * np.array([kit.placements[n].at for n in some]) @ way
+        reach = np.array([self._standing.reach(n) for n in some])
+        return float((at - reach).min()), float((at + reach).max())

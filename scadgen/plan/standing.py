@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -11,6 +11,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from scadgen.errors import InputError, InvariantError
+from scadgen.frame.layout import bill
 from scadgen.frame.placement import Placement
 from scadgen.kit.model import Joint, Kit
 from scadgen.solid.affine import Floats
@@ -91,11 +92,29 @@ class Standing:
                 found[part].append(number)
         return found
 
+    def meeting(self, parts: Collection[int], others: Collection[int]) -> list[int]:
+        """Numbers of the joints at which some parts meet others."""
+        near = {number for part in parts for number in self.sites_of[part]}
+        return sorted(near & {number for part in others for number in self.sites_of[part]})
+
     def keys(self, site: Site) -> dict[int, int | None]:
         """The element on the edge of each of a joint's keys, if there is one, by its half A."""
         pegs = zip(site.pieces("half_a"), site.pieces("peg"), strict=True)
         fixed = {half: part for half, peg in pegs if (part := site.parts[peg]) in self.elements}
         return {half: fixed.get(half, site.tubes.get(half)) for half in site.pieces("half_a")}
+
+    @cached_property
+    def _reaches(self) -> dict[str, float]:
+        """How far each kind of part reaches from its origin, in the plane, in mm."""
+        kit = self.kit
+        points = {
+            name: kit.parts[name].points(kit.values) for name in bill(kit.placements, kit.parts)
+        }
+        return {name: float(np.hypot(p[:, 0], p[:, 1]).max()) for name, p in points.items()}
+
+    def reach(self, part: int) -> float:
+        """How far a part reaches from where it is placed, in the plane, in mm."""
+        return self._reaches[self.kit.placements[part].part]
 
     def length(self, part: int) -> float:
         """Length of an element, in edge lengths."""

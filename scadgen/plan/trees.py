@@ -82,7 +82,8 @@ class Trees:
 
     def _free(self, group: frozenset[int]) -> Choice:
         """What no other holds: straight up."""
-        joint = self._standing.sites_of[min(group)][0]
+        part = min(group)
+        joint = (self._joints_of[part] or self._standing.sites_of[part])[0]
         site = self._standing.sites[joint]
         still = Path.through(np.zeros((1, 6)), np.zeros(3))
         return Choice(group, joint, still, site.at, site.turn)

@@ -1,47 +1,38 @@
 """The finished frame as one assembly: what of it can still move, and what holds it.
 
-Contacts are found once for each kind of joint, on its pieces without clearance, and placed at
-every joint that is of that kind.  So that nothing is lost in a large frame, only the extreme
-contacts of each two pieces are taken: what some contacts lock, all of them lock.
-
 Pegs can slide along their edges, by which everything comes apart again.  The proof says what
-moves besides.  First every peg is stopped in one of its halves, by two contacts that face each
-other.  Of a peg that is a part of its own, contacts that are not along its way are left out,
-and on all others it only slides: so any motion that the contacts allow, less the sliding of
-such pegs, is one that the stops allow as well.  If there is none, nothing moves but these pegs.
-If there is one, tubes may slide off their pegs, a row of them at once.  Then pegs are stopped
-in their tubes as well: if nothing moves now, nothing ever does unless a peg slides.
+moves besides.  First every peg is stopped in one of its halves (`interlock.stops`): if nothing
+can move now, nothing moves but pegs that are parts of their own.  If something can, tubes may
+slide off their pegs, a row of them at once.  Then pegs are stopped in their tubes as well: if
+nothing moves now, nothing ever does unless a peg slides.
+
+What locks is proved on the extreme contacts, for what some contacts lock, all of them do.  What
+can move is shown on all of them: a straight motion on every direction in which two parts touch;
+any other, if the extreme ones do not lock, by a motion of parts with pegs stopped as above and
+no contact left out.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from scadgen.check.geometry import placed
-from scadgen.check.pieces import key_tubes, pieces
-from scadgen.interlock.assembly import extreme_rows, make_assembly
+from scadgen.interlock.assembly import make_assembly
 from scadgen.interlock.certificate import BALANCED, check_certificate
-from scadgen.interlock.contacts import Contacts, Mesh, find_contacts
+from scadgen.interlock.contacts import Contacts, Mesh
 from scadgen.interlock.forces import balanced, equilibrium, unfelt
-from scadgen.interlock.verdict import Certificate, contacts_by_part, verdict
-from scadgen.kit.model import Joint
+from scadgen.interlock.stops import SLIDES, Stop, stopped
+from scadgen.interlock.verdict import Certificate, Motion, verdict
 from scadgen.plan.slides import sliding
 from scadgen.plan.standing import Standing
+from scadgen.plan.touching import Touching
 from scadgen.solid.affine import Floats
 
-__all__ = ["Loose", "Whole", "frame_contacts", "opens", "whole_frame"]
-
-#: Faces closer than this, in sides, touch; without clearance they coincide.
-_TOUCH = 1e-5
-
-#: Cosine of the angle between a contact's normal and a peg's way up to which it only slides.
-_SLIDES = 1e-6
+__all__ = ["Loose", "Whole", "opens", "whole_frame"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +49,11 @@ class Loose:
 
     parts: tuple[int, ...]
     way: tuple[float, float]
+
+    @property
+    def degrees(self) -> float:
+        """The direction as an angle."""
+        return math.degrees(math.atan2(self.way[1], self.way[0]))
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,58 +98,48 @@ class _Peg:
     alone: bool
 
 
-def whole_frame(standing: Standing, gone: Collection[int] = ()) -> Whole:
+def whole_frame(standing: Standing) -> Whole:
     """Find out what of a finished frame can move.
 
     Parameters
     ----------
     standing
         The frame.
-    gone
-        Numbers of parts that are not there.
     """
-    contacts, boxes = frame_contacts(standing), _boxes(standing)
-    contacts = contacts.some(np.flatnonzero(~_of(contacts, gone)))
-    pegs = [peg for peg in _pegs(standing) if not {peg.part, peg.half} & {*gone}]
-    loose = tuple(m for m in _motions(standing, pegs) if opens(contacts, m))
-    held = (max(standing.elements - {*gone}), *gone)
-    parts, count = len(boxes) - len(gone), len(contacts)
-    if forces := _locked(boxes, _stopped(contacts, pegs), held):
+    touching, boxes, pegs = Touching(standing), _boxes(standing), list(_pegs(standing))
+    few, held = touching.extreme(), (max(standing.elements),)
+    directions = touching.directions()
+    loose = tuple(motion for motion in _motions(standing, pegs) if opens(directions, motion))
+    if forces := _locked(boxes, stopped(few, _stops(pegs, tubes=False)), held):
         moves = "pegs" if all(peg.alone for peg in pegs) else "rows"
-        return Whole(parts, count, loose, forces, moves)
-    stopped = _stopped(contacts, pegs, tubes=True)
-    if forces := _locked(boxes, stopped, held):
-        return Whole(parts, count, loose, forces, "rows")
-    found = verdict(make_assembly(boxes, stopped, held))
-    if isinstance(found, Certificate):
-        if check_certificate(stopped, held, len(boxes), found) < BALANCED:
-            return Whole(parts, count, loose, len(found.rows), "rows")
-        moving: tuple[int, ...] = ()
-    else:
+        return Whole(len(boxes), len(few), loose, forces, moves)
+    stops = _stops(pegs, tubes=True)
+    if forces := _locked(boxes, stopped(few, stops), held):
+        return Whole(len(boxes), len(few), loose, forces, "rows")
+    every = stopped(touching.all(), stops)
+    found = verdict(make_assembly(boxes, every, held))
+    moving: tuple[int, ...] = ()
+    if isinstance(found, Motion):
         moving = found.parts
-    return Whole(parts, count, (*loose, Loose(moving, (0.0, 0.0))), 0, "more")
-
-
-def _of(contacts: Contacts, parts: Collection[int]) -> NDArray[np.bool_]:
-    """Which contacts are of some parts."""
-    some = list(parts)
-    return np.isin(contacts.first, some) | np.isin(contacts.second, some)
+    elif check_certificate(every, held, len(boxes), found) < BALANCED:
+        return Whole(len(boxes), len(every), loose, len(found.rows), "rows")
+    return Whole(len(boxes), len(every), (*loose, Loose(moving, (0.0, 0.0))), 0, "more")
 
 
 def opens(contacts: Contacts, motion: Loose) -> bool:
-    """Whether no contact is in the way of parts that move straight.
+    """Whether no contact is in the way of parts that move straight, to first order.
 
     Parameters
     ----------
     contacts
-        All contacts.
+        One for each direction in which two parts touch, or all contacts.
     motion
         What moves, and where to.
     """
     inside = np.isin(contacts.first, motion.parts), np.isin(contacts.second, motion.parts)
     speed = inside[1].astype(float) - inside[0]
     along = contacts.normals @ np.array([*motion.way, 0.0])
-    return bool((speed * along > -_SLIDES).all())
+    return bool((speed * along > -SLIDES).all())
 
 
 def _locked(boxes: Sequence[Mesh], contacts: Contacts, held: tuple[int, ...]) -> int:
@@ -172,48 +158,6 @@ def _locked(boxes: Sequence[Mesh], contacts: Contacts, held: tuple[int, ...]) ->
     found = Certificate(np.arange(len(forces)), forces, assembly.rows.shape[1])
     good = check_certificate(contacts, held, len(boxes), found) < BALANCED
     return len(forces) if good else 0
-
-
-def frame_contacts(standing: Standing) -> Contacts:
-    """The extreme contacts between all parts of a frame without clearance, in mm.
-
-    Parameters
-    ----------
-    standing
-        The frame.
-    """
-    unit = standing.kit.values["edge_length"]
-    kinds = {id(site.kind): site.kind for site in standing.sites}
-    touching = {key: _touching(standing, kind) for key, kind in kinds.items()}
-    found = []
-    for site in standing.sites:
-        contacts, tubes = touching[id(site.kind)]
-        count = len(site.kind.pieces)
-        parts = np.array(
-            [site.parts[n] for n in range(count)] + [site.tubes.get(n, -1) for n in tubes]
-        )
-        first, second = parts[contacts.first], parts[contacts.second]
-        kept = np.flatnonzero((first >= 0) & (second >= 0) & (first != second))
-        turning = Rotation.from_euler("z", site.turn, degrees=True).as_matrix()
-        found.append(
-            (
-                contacts.points[kept] @ turning.T + unit * np.array([*site.at, 0.0]),
-                contacts.normals[kept] @ turning.T,
-                first[kept],
-                second[kept],
-            )
-        )
-    return Contacts(*(np.concatenate(column) for column in zip(*found, strict=True)))
-
-
-def _touching(standing: Standing, kind: Joint) -> tuple[Contacts, tuple[int, ...]]:
-    """The extreme contacts of a kind of joint, in mm, and the half A of each tube after them."""
-    kit = standing.kit
-    values = {**kit.values, "clearance": 0.0, "peg_clearance": 0.0}
-    tubes = key_tubes(kit, kind, values) if kit.key == "loose" else {}
-    meshes = [*pieces(kit, kind, values), *tubes.values()]
-    contacts = find_contacts(meshes, _TOUCH * values["side"])
-    return contacts.some(extreme_rows(make_assembly(meshes, contacts, (0,)))), tuple(tubes)
 
 
 def _boxes(standing: Standing) -> list[Mesh]:
@@ -239,26 +183,18 @@ def _pegs(standing: Standing) -> Iterator[_Peg]:
             yield _Peg(part, site.parts[half], site.tubes.get(half), at, axis, alone)
 
 
-def _stopped(contacts: Contacts, pegs: Sequence[_Peg], *, tubes: bool = False) -> Contacts:
-    """The contacts with each peg stopped in its half, and in its tube; see the module's text."""
-    stay = np.ones(len(contacts), dtype=np.bool_)
-    of_part = contacts_by_part(contacts, int(max(contacts.second.max(), contacts.first.max())) + 1)
-    stops = []
-    for peg in pegs:
-        stops.append((peg, peg.half))
-        if peg.tube is not None and tubes:
-            stops.append((peg, peg.tube))
-        elif peg.alone:
-            mine = of_part[peg.part]
-            stay[mine] &= np.abs(contacts.normals[mine] @ peg.axis) < _SLIDES
-    left = contacts.some(np.flatnonzero(stay))
-    both = [(peg, other, sign) for peg, other in stops for sign in (1, -1)]
-    return Contacts(
-        np.vstack([left.points, *(peg.at for peg, _, _ in both)]),
-        np.vstack([left.normals, *(sign * peg.axis for peg, _, sign in both)]),
-        np.append(left.first, [other for _, other, _ in both]),
-        np.append(left.second, [peg.part for peg, _, _ in both]),
-    )
+def _stops(pegs: Sequence[_Peg], *, tubes: bool) -> list[Stop]:
+    """Where pegs are stopped: in their halves; and in their tubes, where none may slide at all."""
+    return [
+        Stop(
+            peg.part,
+            (peg.half, peg.tube) if tubes and peg.tube is not None else (peg.half,),
+            peg.at,
+            peg.axis,
+            alone=peg.alone and not tubes,
+        )
+        for peg in pegs
+    ]
 
 
 def _motions(standing: Standing, pegs: Sequence[_Peg]) -> Iterator[Loose]:
