@@ -2,8 +2,8 @@
 
 usage: benchmarks/random_frames.py [COUNT] [SEED]
 Each has 3 to 60 vertices, edges of a Delaunay triangulation that are 25 degrees apart and more,
-and is as large as its joints need.  A kit is at detail `draft`, with all joints proved; what is
-refused is told with its reason.  One line a frame.
+and is as large as its joints need.  A kit is at detail `draft`, with all joints proved, and so
+are its plan and the finished frame; what is refused is told with its reason.  One line a frame.
 """
 
 from __future__ import annotations
@@ -19,9 +19,11 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import Delaunay
 
 from scadgen.check.proof import proved
-from scadgen.errors import ScadgenError
+from scadgen.errors import InvariantError, ScadgenError
 from scadgen.frame.graph import Frame, make_frame
 from scadgen.kit.build import Request, build
+from scadgen.plan.order import make_plan
+from scadgen.plan.whole import whole_frame
 
 #: Least angle between two edges, in degrees, and the vertices of a frame.
 LEAST, FEWEST, MOST = 25.5, 3, 60
@@ -83,23 +85,32 @@ def thinned(points: np.ndarray, edges: np.ndarray) -> np.ndarray:
     return np.array(kept)
 
 
+def become(frame: Frame) -> tuple[str, str]:
+    """What becomes of a frame, and what is to be said of it."""
+    try:
+        wish = Request("random", "loose", 0, 0, "draft", graph=frame, resizable=True)
+        kit = proved(build(wish))
+    except ScadgenError as error:
+        return "refused" if not isinstance(error, InvariantError) else "failed", str(error)
+    plan = make_plan(kit)
+    held = whole_frame(plan.standing).held
+    said = f"{len(kit.joints)} kinds of joints, plan of {len(plan.steps)} steps"
+    return "kit" if plan.proved and held else "kit, not its plan", said
+
+
 def main(count: int, seed: int) -> None:
     """Make the frames and say what becomes of them."""
     ends: Counter[str] = Counter()
     for number in range(seed, seed + count):
         frame = random_frame(np.random.default_rng(number))
         start = time.process_time()
-        wish = Request("random", "loose", 0, 0, "draft", graph=frame, resizable=True)
-        try:
-            kit = proved(build(wish))
-            end, said = "kit", f"{len(kit.joints)} kinds of joints"
-        except ScadgenError as error:
-            end, said = type(error).__name__, str(error)
+        end, said = become(frame)
         ends[end] += 1
         size = f"{len(frame.vertices):3d} vertices, {len(frame.edges):3d} edges"
         seconds = time.process_time() - start
         print(f"{number:4d}: {size}, {seconds:6.1f} CPU s: {end}: {said}", flush=True)
-    print(f"{ends['kit']} of {count} are kits; others: {dict(ends - Counter(kit=ends['kit']))}")
+    told = ", ".join(f"{end} {number}" for end, number in ends.most_common())
+    print(f"of {count} frames: {told}")
 
 
 if __name__ == "__main__":

@@ -79,13 +79,15 @@ def build_frame(
     """
     frame, side = _graph(request), request.values.get("side", 10.0)
     check_values([SIDE], {"side": side})
-    kinds = choose_kinds(frame, sameness(frame), rim=request.rim == "caps")
-    weaves = [_weave(frame, kinds, number) for number in range(len(kinds.kinds))]
-    frame = _sized(request, frame, np.array([weaves[n].ring_ratio for n in kinds.kind_of]))
+    same, kinds, weaves = _joints(request, frame)
+    sized = _sized(request, frame, np.array([weaves[n].ring_ratio for n in kinds.kind_of]))
+    if sized is not frame:
+        # Anew, to the last digit as from the frame that the kit keeps.
+        frame = sized
+        same, kinds, weaves = _joints(request, frame)
     reach = [reaches(kinds.shape(n).directions, weave.ring_ratio) for n, weave in enumerate(weaves)]
     modest = {n: min(v, _MODEST[n] * side) for n, v in request.values.items() if n in _MODEST}
     room(frame, kinds, np.array(reach), modest).check(side)
-    same = sameness(frame)
     wanted = [_wanted(request, frame, kinds, number, weave) for number, weave in enumerate(weaves)]
     pieces = wanted_pieces(wanted, means, lambda count: done(count, len(wanted)))
     build = _Build(frame, same, kinds, pieces)
@@ -126,6 +128,13 @@ def _graph(request: Request) -> Frame:
         msg = "a frame without rows and columns has a graph"
         raise InvariantError(msg)
     return request.graph
+
+
+def _joints(request: Request, frame: Frame) -> tuple[Sameness, Kinds, list[Weave]]:
+    """What of a frame is the same, its kinds of joints, and the weave of each."""
+    same = sameness(frame)
+    kinds = choose_kinds(frame, same, rim=request.rim == "caps")
+    return same, kinds, [_weave(frame, kinds, number) for number in range(len(kinds.kinds))]
 
 
 def _sized(request: Request, frame: Frame, rings: Floats) -> Frame:
@@ -304,7 +313,7 @@ class _Build:
     ) -> Iterator[Placement]:
         """The pieces of a joint where it stands: halves, connectors without a tube, pegs."""
         kind, directions = self.kinds.kinds[number], self.kinds.shape(number).directions
-        degrees = np.degrees((turn + directions) % (2 * np.pi)).round(_DECIMALS).tolist()
+        degrees = (np.degrees(turn + directions).round(_DECIMALS) % 360).tolist()
         for slot in kind.keys:
             for name, flip, role in zip(
                 self._halves(number, slot), (False, True), ("half_a", "half_b"), strict=True
@@ -327,10 +336,12 @@ class _Build:
                 used[vertex].add(int(self.kinds.slots[edge, end]))
             vertex, slot = int(pair[int(swapped)]), int(self.kinds.slots[edge, int(swapped)])
             shape = self.kinds.shape(int(self.kinds.kind_of[vertex]))
-            turn = float(np.degrees(self.kinds.turn[vertex] + shape.directions[slot])) % 360
+            turn = float(np.degrees(self.kinds.turn[vertex] + shape.directions[slot]))
             role = "cross" if what[0][2] or what[1][2] else "row"
             at = (float(vertices[vertex, 0]), float(vertices[vertex, 1]))
-            yield Placement(self.elements[what], at, round(turn, _DECIMALS), flip=False, role=role)
+            yield Placement(
+                self.elements[what], at, round(turn, _DECIMALS) % 360, flip=False, role=role
+            )
         for vertex, (x, y) in enumerate(vertices.tolist()):
             number = int(self.kinds.kind_of[vertex])
             caps = set(range(len(self.kinds.shape(number).directions))) - used[vertex]
