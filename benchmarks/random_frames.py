@@ -31,11 +31,14 @@ LEAST, FEWEST, MOST = 25.5, 3, 60
 #: Least distance of two vertices, where there is one for each square of 100.
 APART = 50.0
 
+#: Least distance of an edge from a vertex that it passes.
+PASSED = 30.0
 
-def random_frame(random: np.random.Generator) -> Frame:
-    """A connected planar frame."""
+
+def random_frame(random: np.random.Generator, most: int = MOST) -> Frame:
+    """A connected planar frame of no more than so many vertices."""
     while True:
-        count = round(math.exp(random.uniform(math.log(FEWEST), math.log(MOST))))
+        count = round(math.exp(random.uniform(math.log(FEWEST), math.log(most))))
         points = apart(random, count)
         triangles = Delaunay(points).simplices
         pairs = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, 1:], triangles[:, ::2]]))
@@ -74,7 +77,7 @@ def thinned(points: np.ndarray, edges: np.ndarray) -> np.ndarray:
         x, y = points[b] - points[a]
         turn = math.atan2(y, x)
         ends = (a, turn), (b, turn + math.pi)
-        if all(
+        if passed(points, a, b) > PASSED and all(
             abs((other - angle + math.pi) % (2 * math.pi) - math.pi) > math.radians(LEAST)
             for end, angle in ends
             for other in taken[end]
@@ -96,6 +99,14 @@ def become(frame: Frame) -> tuple[str, str]:
     held = whole_frame(plan.standing).held
     said = f"{len(kit.joints)} kinds of joints, plan of {len(plan.steps)} steps"
     return "kit" if plan.proved and held else "kit, not its plan", said
+
+
+def passed(points: np.ndarray, a: int, b: int) -> float:
+    """How near an edge passes to other vertices."""
+    way = points[b] - points[a]
+    others = np.delete(points, [a, b], axis=0)
+    share = np.clip((others - points[a]) @ way / (way @ way), 0, 1)
+    return float(np.linalg.norm(others - points[a] - share[:, None] * way, axis=1).min())
 
 
 def main(count: int, seed: int) -> None:

@@ -84,6 +84,11 @@ def test_its_parameters_make_it_again(made):
     assert same(made()).good
 
 
+@pytest.mark.parametrize("name", ["ring", "3.6.3.6", "V3.3.4.3.4"])
+def test_a_frame_that_grew_for_its_joints_makes_the_same_kit_again(name):
+    assert same(build(request(named(name)))).good
+
+
 @both
 def test_its_solids_are_sound_and_its_joints_lock(made):
     kit = made()

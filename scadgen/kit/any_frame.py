@@ -25,6 +25,7 @@ from scadgen.frame.placement import Placement
 from scadgen.frame.planarity import where
 from scadgen.frame.sameness import Sameness, joint_name, sameness
 from scadgen.joint.weave import Weave, any_joint
+from scadgen.kit.apart import Apart
 from scadgen.kit.model import Joint, Kit
 from scadgen.kit.pieces import Pieces
 from scadgen.kit.ranges import SIDE, check_values, edge_range, ranges
@@ -88,6 +89,7 @@ def build_frame(
     reach = [reaches(kinds.shape(n).directions, weave.ring_ratio) for n, weave in enumerate(weaves)]
     modest = {n: min(v, _MODEST[n] * side) for n, v in request.values.items() if n in _MODEST}
     room(frame, kinds, np.array(reach), modest).check(side)
+    Apart(frame, np.array([weaves[n].ring_ratio for n in kinds.kind_of])).check(side)
     wanted = [_wanted(request, frame, kinds, number, weave) for number, weave in enumerate(weaves)]
     pieces = wanted_pieces(wanted, means, lambda count: done(count, len(wanted)))
     build = _Build(frame, same, kinds, pieces)
@@ -98,6 +100,7 @@ def build_frame(
     # Rings may have become wider.
     reach = [(one.key.tube_start, one.key.pad) for one in pieces]
     room(frame, kinds, np.array(reach), values).check(side)
+    Apart(frame, np.array([pieces[n].weave.ring_ratio for n in kinds.kind_of])).check(side)
     check_values(limits, values)
     return Kit(
         frame=request.frame,
@@ -143,6 +146,7 @@ def _sized(request: Request, frame: Frame, rings: Floats) -> Frame:
     wanted = request.values.get("edge_length", shortest)
     if request.resizable and "edge_length" not in request.values:
         need = shortest * least_scale(frame, side, rings, _ROOM)
+        need = max(need, shortest * Apart(frame, rings + _WIDER[-1]).least_scale(side))
         wanted = max(6, math.ceil(need / side - 1e-9)) * side
     if abs(wanted - shortest) > 10**-_LENGTH_DECIMALS:
         frame = make_frame(frame.name, frame.vertices * (wanted / shortest), frame.edges)

@@ -19,7 +19,7 @@ from scadgen.kit.ranges import SIDE, TUBE
 from scadgen.kit.request import CLEARANCE, peg_length
 from scadgen.solid.affine import Floats
 
-__all__ = ["Room", "reaches", "room"]
+__all__ = ["Room", "reaches", "room", "up"]
 
 #: An edge is too short if more than this is missing, in mm: rounding, far below a vertex's.
 _ROUNDING = 1e-9
@@ -74,9 +74,9 @@ class Room:
         """What would do instead of a side that is too large, in words."""
         least, largest = SIDE.low.constant, min(self.largest_side(), SIDE.high.constant)
         if largest < least:
-            larger = f"a frame {_up(self.least_scale(least))} times as large"
+            larger = f"a frame {up(self.least_scale(least))} times as large"
             return f"sides under {least:g} mm do not print; with {least:g} mm {larger} would do"
-        larger = f"a frame {_up(self.least_scale(side))} times as large"
+        larger = f"a frame {up(self.least_scale(side))} times as large"
         return f"a side of {_down(largest)} mm or {larger} would do"
 
     def check(self, side: float) -> None:
@@ -178,5 +178,6 @@ def _down(value: float) -> str:
     return f"{math.floor(value * 1000) / 1000:g}"
 
 
-def _up(value: float) -> str:
+def up(value: float) -> str:
+    """A number rounded up to three decimals, in words."""
     return f"{math.ceil(value * 1000) / 1000:g}"

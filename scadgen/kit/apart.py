@@ -1,0 +1,113 @@
+"""Whether a frame's joints keep apart from each other and from edges that pass by."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from scadgen.errors import GeometryError
+from scadgen.frame.graph import Frame
+from scadgen.frame.planarity import where
+from scadgen.kit.room import up
+from scadgen.solid.affine import Floats, Ints
+
+__all__ = ["Apart"]
+
+#: Room between two joints, or a joint and a tube, in sides: to put parts in past others.
+_GAP = 0.25
+
+#: Half a tube's width, in sides.
+_TUBE = 0.5
+
+#: Share of its need by which a distance may be short: rounding.
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class Apart:
+    """What the joints of a frame need around them.
+
+    Parameters
+    ----------
+    frame
+        The frame.
+    rings
+        ``(n,) float``: the ring ratio of each vertex.
+    """
+
+    frame: Frame
+    rings: Floats
+
+    def least_scale(self, side: float) -> float:
+        """How many times as large the frame must be at least for a side, in mm; or 1."""
+        return max((float((need / far).max()) for *_, need, far in self._near(side)), default=1.0)
+
+    def check(self, side: float) -> None:
+        """Refuse a frame whose joints stand in the way of others.
+
+        Parameters
+        ----------
+        side
+            Side of the tubes, in mm.
+
+        Raises
+        ------
+        GeometryError
+            A joint has too little room: which, what is in its way, how much is missing, and what
+            would help.
+        """
+        scale = self.least_scale(side)
+        for what, vertex, other, need, far in self._near(side):
+            worst = int((need / far).argmax())
+            if need[worst] < scale * far[worst]:
+                continue
+            v, n = int(vertex[worst]), int(other[worst])
+            msg = (
+                f"vertex {v} at {where(self.frame.vertices[v])}: {what} {n} is "
+                f"{far[worst]:.4g} mm away, {need[worst] - far[worst]:.4g} mm too near for the "
+                f"joint's ring with a side of {side:g} mm; a frame {up(scale)} times as large "
+                "would do"
+            )
+            raise GeometryError(msg)
+
+    def _near(self, side: float) -> Iterator[tuple[str, Ints, Ints, Floats, Floats]]:
+        """What is too near to vertices: its name, numbers, what is needed and what there is."""
+        frame, around = self.frame, side * (self.rings + 0.5)
+        points, edges = np.asarray(shapely.points(frame.vertices)), frame.edges
+        lines = np.asarray(shapely.linestrings(frame.vertices[edges]))
+        vertex, edge = _within(points, lines, around + side * (_TUBE + _GAP))
+        foreign = (edges[edge] != vertex[:, None]).all(axis=1)
+        vertex, edge = vertex[foreign], edge[foreign]
+        need = around[vertex] + side * (_TUBE + _GAP)
+        far = np.asarray(shapely.distance(points[vertex], lines[edge]))
+        yield from _short("edge", vertex, edge, need, far)
+        vertex, other = _within(points, points, 2 * around + side * _GAP)
+        count = len(points)
+        pair = np.minimum(vertex, other) * count + np.maximum(vertex, other)
+        joined = np.isin(pair, edges.min(axis=1) * count + edges.max(axis=1))
+        # The larger ring finds the smaller one.
+        foreign = ~joined & (vertex != other) & (around[vertex] >= around[other])
+        vertex, other = vertex[foreign], other[foreign]
+        need = around[vertex] + around[other] + side * _GAP
+        far = np.linalg.norm(frame.vertices[vertex] - frame.vertices[other], axis=1)
+        yield from _short("vertex", vertex, other, need, far)
+
+
+def _within(points: NDArray[Any], others: NDArray[Any], reach: Floats) -> tuple[Ints, Ints]:
+    """Pairs of a point and another geometry that is within its reach."""
+    first, second = shapely.STRtree(others).query(points, predicate="dwithin", distance=reach)
+    return np.asarray(first, dtype=np.int64), np.asarray(second, dtype=np.int64)
+
+
+def _short(
+    what: str, vertex: Ints, other: Ints, need: Floats, far: Floats
+) -> Iterator[tuple[str, Ints, Ints, Floats, Floats]]:
+    """Those that are nearer than is needed, if there are any."""
+    near = np.flatnonzero(far < need * (1 - _ROUNDING))
+    if len(near):
+        yield what, vertex[near], other[near], need[near], far[near]
