@@ -63,7 +63,7 @@ class Build:
 
     @cached_property
     def largest_side(self) -> float | None:
-        """Largest side with which all edges are long enough, in mm; None with unfit joints."""
+        """Largest side with which there is room, in mm; None with unfit joints."""
         return None if self.unfit else max(self.room.largest_side(), 0.0)
 
     def missing(self, side: float) -> Floats:
@@ -83,6 +83,12 @@ class Build:
                 f"short for its two joints, from {first} to {second}"
                 f"{_more(int(np.count_nonzero(missing[edges])))}"
             )
+
+    def too_near(self, side: float) -> Iterator[str]:
+        """The joint that is nearest to what passes by, if it is too near at this side."""
+        fault = self.room.apart.fault(side)
+        if fault:
+            yield fault
 
     def _place(self, kind: int) -> str:
         """Where the narrowest joint of a kind stands."""
@@ -115,7 +121,8 @@ def rings(
         (float(tube_start(ring)), ring - 0.5) if reason else reaches(shape.directions, ring)
         for shape, (ring, reason) in zip(shapes, found, strict=True)
     ]
-    needed = room(frame, kinds, np.array(reach), {}, fixed=fixed)
+    ratios = np.array([ring for ring, _ in found])
+    needed = room(frame, kinds, np.array(reach), ratios, {}, fixed=fixed)
     kind_of = [int(kinds.kind_of[joint.vertices[0]]) for joint in same.joints]
     least_own = [np.diff(joint.directions, append=2 * np.pi).min() for joint in same.joints]
     return Build(

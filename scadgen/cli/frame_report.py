@@ -46,7 +46,9 @@ def report(
         Side of the tubes, in mm, if it is to be built.
     """
     frame, largest = build.frame, build.largest_side
-    in_the_way = [*build.unfit, *(build.too_short(side) if side else ())]
+    in_the_way = [*build.unfit]
+    if side:
+        in_the_way += [*build.too_short(side), *build.too_near(side)]
     too_small = largest is not None and (in_the_way or largest < SIDES[0])
     return {
         "name": frame.name,

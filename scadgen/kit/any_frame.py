@@ -88,8 +88,8 @@ def build_frame(
         same, kinds, weaves = _joints(request, frame)
     reach = [reaches(kinds.shape(n).directions, weave.ring_ratio) for n, weave in enumerate(weaves)]
     modest = {n: min(v, _MODEST[n] * side) for n, v in request.values.items() if n in _MODEST}
-    room(frame, kinds, np.array(reach), modest).check(side)
-    Apart(frame, np.array([weaves[n].ring_ratio for n in kinds.kind_of])).check(side)
+    rings = np.array([weave.ring_ratio for weave in weaves])
+    room(frame, kinds, np.array(reach), rings, modest).check(side)
     wanted = [_wanted(request, frame, kinds, number, weave) for number, weave in enumerate(weaves)]
     pieces = wanted_pieces(wanted, means, lambda count: done(count, len(wanted)))
     build = _Build(frame, same, kinds, pieces)
@@ -99,8 +99,8 @@ def build_frame(
     check_values([limit for limit in limits if limit.parameter != "edge_length"], values)
     # Rings may have become wider.
     reach = [(one.key.tube_start, one.key.pad) for one in pieces]
-    room(frame, kinds, np.array(reach), values).check(side)
-    Apart(frame, np.array([pieces[n].weave.ring_ratio for n in kinds.kind_of])).check(side)
+    rings = np.array([one.weave.ring_ratio for one in pieces])
+    room(frame, kinds, np.array(reach), rings, values).check(side)
     check_values(limits, values)
     return Kit(
         frame=request.frame,

@@ -10,10 +10,8 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from scadgen.errors import GeometryError
 from scadgen.frame.graph import Frame
 from scadgen.frame.planarity import where
-from scadgen.kit.room import up
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["Apart"]
@@ -47,33 +45,25 @@ class Apart:
         """How many times as large the frame must be at least for a side, in mm; or 1."""
         return max((float((need / far).max()) for *_, need, far in self._near(side)), default=1.0)
 
-    def check(self, side: float) -> None:
-        """Refuse a frame whose joints stand in the way of others.
+    def largest_side(self, side: float) -> float:
+        """The largest side, in mm, up to the given one, with which nothing is too near."""
+        return side / max(1.0, self.least_scale(side))
 
-        Parameters
-        ----------
-        side
-            Side of the tubes, in mm.
-
-        Raises
-        ------
-        GeometryError
-            A joint has too little room: which, what is in its way, how much is missing, and what
-            would help.
-        """
-        scale = self.least_scale(side)
-        for what, vertex, other, need, far in self._near(side):
-            worst = int((need / far).argmax())
-            if need[worst] < scale * far[worst]:
-                continue
-            v, n = int(vertex[worst]), int(other[worst])
-            msg = (
-                f"vertex {v} at {where(self.frame.vertices[v])}: {what} {n} is "
-                f"{far[worst]:.4g} mm away, {need[worst] - far[worst]:.4g} mm too near for the "
-                f"joint's ring with a side of {side:g} mm; a frame {up(scale)} times as large "
-                "would do"
-            )
-            raise GeometryError(msg)
+    def fault(self, side: float) -> str | None:
+        """Which joint has the least room for a side, in mm, of those that have too little."""
+        found = [
+            (float((need / far)[worst]), what, int(vertex[worst]), int(other[worst]), far[worst])
+            for what, vertex, other, need, far in self._near(side)
+            for worst in [int((need / far).argmax())]
+        ]
+        if not found:
+            return None
+        scale, what, vertex, other, far = max(found)
+        return (
+            f"vertex {vertex} at {where(self.frame.vertices[vertex])}: {what} {other} is "
+            f"{far:.4g} mm away, {(scale - 1) * far:.4g} mm too near for the joint's ring with a "
+            f"side of {side:g} mm"
+        )
 
     def _near(self, side: float) -> Iterator[tuple[str, Ints, Ints, Floats, Floats]]:
         """What is too near to vertices: its name, numbers, what is needed and what there is."""

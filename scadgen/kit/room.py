@@ -1,4 +1,4 @@
-"""Whether every edge of a frame is long enough for the joints at its ends."""
+"""Whether a frame has room for its joints: on its edges, and beside them."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ from scadgen.frame.kinds import Kinds
 from scadgen.frame.planarity import where
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.lattice import make_lattice
+from scadgen.kit.apart import Apart
 from scadgen.kit.ranges import SIDE, TUBE
 from scadgen.kit.request import CLEARANCE, peg_length
 from scadgen.solid.affine import Floats
 
-__all__ = ["Room", "reaches", "room", "up"]
+__all__ = ["Room", "reaches", "room"]
 
 #: An edge is too short if more than this is missing, in mm: rounding, far below a vertex's.
 _ROUNDING = 1e-9
@@ -27,7 +28,7 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Room:
-    """What the joints at the ends of a frame's edges need of them.
+    """What the joints of a frame need.
 
     Parameters
     ----------
@@ -42,6 +43,8 @@ class Room:
         Longest way of a loose peg through the halves, in sides.
     values
         The live parameters that are said, in mm.
+    apart
+        What the joints need around them.
     """
 
     frame: Frame
@@ -49,6 +52,7 @@ class Room:
     sockets: NDArray[np.int64]
     through: float
     values: Mapping[str, float]
+    apart: Apart
 
     def missing(self, side: float) -> Floats:
         """What each edge is too short by: ``(m,) float``, at least 0, in mm.
@@ -62,25 +66,26 @@ class Room:
         return np.where(missing > _ROUNDING, missing, 0.0)
 
     def largest_side(self) -> float:
-        """The largest side for which all edges are long enough, in mm; pegs are not rounded."""
+        """The largest side for which there is room, in mm; pegs are not rounded."""
         fixed, one = (self._needs(side, rounded=False) for side in (0.0, 1.0))
-        return float(((self.frame.lengths - fixed) / (one - fixed)).min())
+        return self.apart.largest_side(float(((self.frame.lengths - fixed) / (one - fixed)).min()))
 
     def least_scale(self, side: float) -> float:
         """How many times as large the frame must be at least for a side, in mm."""
-        return float((self._needs(side) / self.frame.lengths).max())
+        on_edges = float((self._needs(side) / self.frame.lengths).max())
+        return max(on_edges, self.apart.least_scale(side))
 
     def works(self, side: float) -> str:
         """What would do instead of a side that is too large, in words."""
         least, largest = SIDE.low.constant, min(self.largest_side(), SIDE.high.constant)
         if largest < least:
-            larger = f"a frame {up(self.least_scale(least))} times as large"
+            larger = f"a frame {_up(self.least_scale(least))} times as large"
             return f"sides under {least:g} mm do not print; with {least:g} mm {larger} would do"
-        larger = f"a frame {up(self.least_scale(side))} times as large"
+        larger = f"a frame {_up(self.least_scale(side))} times as large"
         return f"a side of {_down(largest)} mm or {larger} would do"
 
     def check(self, side: float) -> None:
-        """Refuse edges that are too short.
+        """Refuse edges that are too short, and joints that are too near to what passes by.
 
         Parameters
         ----------
@@ -90,7 +95,7 @@ class Room:
         Raises
         ------
         GeometryError
-            An edge is too short: which, how long it is, how much is missing, and what would help.
+            There is too little room: where, how much is missing, and what would help.
         """
         missing = self.missing(side)
         if missing.any():
@@ -104,6 +109,10 @@ class Room:
                 f"long, is {missing[edge]:.4g} mm too short for its two joints with a side of "
                 f"{side:g} mm{more}; {self.works(side)}"
             )
+            raise GeometryError(msg)
+        fault = self.apart.fault(side)
+        if fault:
+            msg = f"{fault}; {self.works(side)}"
             raise GeometryError(msg)
 
     def _ends(self, edge: int) -> list[int]:
@@ -145,6 +154,7 @@ def room(
     frame: Frame,
     kinds: Kinds,
     reach: Floats,
+    rings: Floats,
     values: Mapping[str, float],
     *,
     fixed: bool = False,
@@ -157,6 +167,8 @@ def room(
         The frame, and what stands where.
     reach
         ``(k, 2) float``: `reaches` of each kind.
+    rings
+        ``(k,) float``: the ring ratio of each kind.
     values
         The live parameters that are said, in mm.
     fixed
@@ -171,13 +183,13 @@ def room(
     )
     starts = np.where(split, reach[kind, 1], reach[kind, 0]).sum(axis=1)
     through = float((reach[:, 0] - reach[:, 1]).max())
-    return Room(frame, starts, split.sum(axis=1), through, values)
+    apart = Apart(frame, rings[kinds.kind_of])
+    return Room(frame, starts, split.sum(axis=1), through, values, apart)
 
 
 def _down(value: float) -> str:
     return f"{math.floor(value * 1000) / 1000:g}"
 
 
-def up(value: float) -> str:
-    """A number rounded up to three decimals, in words."""
+def _up(value: float) -> str:
     return f"{math.ceil(value * 1000) / 1000:g}"

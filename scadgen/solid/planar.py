@@ -107,7 +107,10 @@ def _polygons(rings: NDArray[Any], owner: Ints) -> tuple[NDArray[Any], Ints]:
     polygons, of = np.asarray(shapely.polygons(rings[shell])), owner[shell]
     for hole, facet in zip(rings[~shell], owner[~shell].tolist(), strict=True):
         point = shapely.Polygon(hole).representative_point()
-        (around,) = np.flatnonzero((of == facet) & shapely.contains(polygons, point))
-        outside = polygons[around]
-        polygons[around] = shapely.Polygon(outside.exterior, [*outside.interiors, hole])
+        around = np.flatnonzero((of == facet) & shapely.contains(polygons, point))
+        if len(around) != 1:
+            msg = f"facet outlines do not cross: one hole is in {len(around)} outlines"
+            raise InvariantError(msg)
+        outside = polygons[around[0]]
+        polygons[around[0]] = shapely.Polygon(outside.exterior, [*outside.interiors, hole])
     return polygons, of
