@@ -298,7 +298,7 @@ def test_a_process_of_its_own_does_the_same(folder, tmp_path):
 
 
 def test_it_can_be_interrupted(folder, tmp_path):
-    slow = program(tmp_path / "slow", "sleep 6")
+    slow = program(tmp_path / "slow", "exec sleep 50")
     with subprocess.Popen(
         [sys.executable, "-c", "from scadgen.cli.main import main; main()", "render", folder],
         env=os.environ | {"PYTHONPATH": str(ROOT), "SCADGEN_OPENSCAD": slow},

@@ -7,6 +7,7 @@ import subprocess
 import sys
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from kits import kit
 
@@ -18,10 +19,16 @@ from scadgen.kit.store import dumps
 from scadgen.work.cache import Cache
 from scadgen.work.each import Means
 
-#: Three edges at unequal angles, and two more that hang on one of them: several kinds of joints.
+#: Three edges at unequal angles, and a chain that hangs on one of them and bends more at each
+#: vertex: eight kinds of joints, so that the first is there long before the last.
+BENDS = np.cumsum([*range(6, 70, 6)]) * (-1) ** np.arange(11)
+CHAIN = np.cumsum(100 * np.exp(1j * np.radians(np.append(30, 30 + BENDS % 50))))
 FORK = {
-    "vertices": [[0, 0], [100, 0], [-30, 110], [-60, -90], [190, 60]],
-    "edges": [[0, 1], [0, 2], [0, 3], [1, 4]],
+    "vertices": [
+        *([0, 0], [100, 0], [-30, 110], [-60, -90]),
+        *([100 + z.real, z.imag] for z in CHAIN.tolist()),
+    ],
+    "edges": [[0, 1], [0, 2], [0, 3], [1, 4], *([n, n + 1] for n in range(4, 3 + len(CHAIN)))],
 }
 
 

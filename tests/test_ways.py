@@ -141,7 +141,7 @@ def damaged(change):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda way: way["moving"].append(9), "moves pieces that the joint lacks"),
+        (lambda way: way["moving"].append(9), "moves pieces that are not there then"),
         (lambda way: way["steps"][0].pop(), "way 'the peg comes out'|inhomogeneous"),
         (lambda way: way.pop("middle"), "'middle' is a required property"),
     ],
