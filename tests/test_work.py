@@ -2,6 +2,7 @@
 
 import multiprocessing
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -131,6 +132,22 @@ def test_what_is_written_by_others_is_not_run(tmp_path):
 def test_a_folder_that_cannot_be_written_costs_no_result(tmp_path):
     (tmp_path / "file").write_text("")
     assert run([3], cache=Cache(tmp_path / "file" / "cache"))[0][0] == 9
+
+
+def test_an_interrupt_waits_until_a_result_is_kept(tmp_path, monkeypatch):
+    writing = np.savez_compressed
+
+    def interrupted(*content, **arrays):
+        signal.raise_signal(signal.SIGINT)
+        writing(*content, **arrays)
+
+    monkeypatch.setattr(np, "savez_compressed", interrupted)
+    cache = Cache(tmp_path)
+    with pytest.raises(KeyboardInterrupt):
+        cache.keep("key", Entry({"n": 1}))
+    assert cache.find("key").values == {"n": 1}
+    with pytest.raises(KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)
 
 
 def test_what_was_not_used_for_longest_goes_first(tmp_path):

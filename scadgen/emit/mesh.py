@@ -31,6 +31,7 @@ import numpy as np
 
 from scadgen.errors import InputError
 from scadgen.solid.affine import Floats, Ints
+from scadgen.work.hold import interrupts_held
 
 __all__ = ["FORMATS", "check_writable", "mesh_bytes", "write_atomic"]
 
@@ -106,7 +107,8 @@ def _3mf(points: Floats, triangles: Ints) -> bytes:
     faces = [f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in triangles.tolist()]
     model = _MODEL.format(vertices="\n".join(vertices), triangles="\n".join(faces))
     buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as package:
+    zipped = zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=6)
+    with interrupts_held(), zipped as package:
         for name, text in (
             ("[Content_Types].xml", _CONTENT_TYPES),
             ("_rels/.rels", _RELATIONS),

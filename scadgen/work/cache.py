@@ -21,6 +21,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from scadgen.work.hold import interrupts_held
+
 __all__ = ["LIMIT", "Cache", "Entry", "default_folder"]
 
 #: Most that is kept, in bytes.
@@ -102,10 +104,9 @@ class Cache:
         text = json.dumps({**entry.values, "key": key}, allow_nan=False)
         content = io.BytesIO()
         arrays: Any = {**entry.arrays, _JSON: np.frombuffer(text.encode(), dtype=np.uint8)}
-        np.savez_compressed(content, **arrays)
-        path = self._path(key)
-        with contextlib.suppress(OSError):
-            _write(path, content.getbuffer())
+        with interrupts_held(), contextlib.suppress(OSError):
+            np.savez_compressed(content, **arrays)
+            _write(self._path(key), content.getbuffer())
             self._added += content.tell()
         # Looking through the folder takes time, so it is done once in a while.
         if self._added > (1 - _LEFT) / 2 * self._limit:
