@@ -28,6 +28,9 @@ _STEPS, _SHARE = 25, 0.9
 #: Diagonal added, as a share of the largest: parts that slide make A^T D A singular.
 _SHIFT = 1e-13
 
+#: Steps that put forces right in an equilibrium: what the shift leaves over shrinks with each.
+_CORRECTIONS = 4
+
 #: Steps of inverse iteration.
 _ITERATIONS = 4
 
@@ -44,19 +47,21 @@ def _factor(rows: csr_array, weights: Floats) -> SuperLU:
     )
 
 
-def equilibrium(rows: csr_array) -> Floats | None:
+def equilibrium(rows: csr_array, rounding: float = ROUNDING) -> Floats | None:
     """Forces, all of them pushing, that hold parts in equilibrium.
 
     Parameters
     ----------
     rows
         ``(k, n)``: the contacts' inequalities.
+    rounding
+        How far the contacts' normals may be tilted: a lock that such a tilt could undo is none.
 
     Returns
     -------
     forces
         ``(k,) float``, the least of them 1; None if none are found, or none that are within
-        1 / `ROUNDING` of each other.
+        1 / `rounding` of each other.
     """
     forces = np.ones(rows.shape[0])
     for _ in range(_STEPS):
@@ -65,7 +70,7 @@ def equilibrium(rows: csr_array) -> Floats | None:
         change = 1 + forces * (rows @ x)
         whole = bool(change.min() > -_SHARE)
         forces *= 1 + (1.0 if whole else -_SHARE / change.min()) * change
-        if not np.isfinite(forces).all() or forces.max() * ROUNDING > forces.min():
+        if not np.isfinite(forces).all() or forces.max() * rounding > forces.min():
             return None
         if whole:
             return balanced(rows, forces)
@@ -81,7 +86,7 @@ def balanced(rows: csr_array, forces: Floats) -> Floats | None:
         None if they are not all pushing then.
     """
     factor = _factor(rows, forces**2)
-    for _ in range(2):
+    for _ in range(_CORRECTIONS):
         forces = forces - forces**2 * (rows @ factor.solve(rows.T @ forces))
         if forces.min() <= 0:
             return None

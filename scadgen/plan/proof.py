@@ -276,7 +276,7 @@ class Prover:
                 ahead = np.linspace(gone, ends[-1], _AHEAD)
                 if any(gap_at(place, self._least) < self._least for place in ahead):
                     return 0.0
-            look = min(2 * look, _FAR * self._side) if gap >= look else self._look
+            look = min(2 * look, _FAR * self._side) if gap >= look else 1.1 * gap
             gone = min(gone + gap, float(ends[-1]))
         return worst
 
