@@ -10,6 +10,7 @@ from kits import KINDS, kit, named, proved_kit, tee
 
 from scadgen.emit.folder import files_of, write_kit
 from scadgen.errors import InputError
+from scadgen.frame.graph import make_frame
 from scadgen.kit.build import Request, build
 from scadgen.kit.store import dumps, load
 
@@ -32,6 +33,31 @@ def contents(folder):
         path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else None
         for path in sorted(folder.rglob("*"))
     }
+
+
+def test_an_interrupt_while_a_folder_is_replaced_loses_nothing(tmp_path, monkeypatch):
+    folder = tmp_path / "kit"
+    write_kit(kit("hexagonal"), folder)
+    (folder / "mine.txt").write_text("mine")
+    before = contents(folder)
+    rename = Path.rename
+
+    def interrupted(path, target):
+        rename(path, target)
+        if path == folder:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(Path, "rename", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write_kit(kit("hexagonal"), folder)
+    assert contents(folder) == before
+    assert [path.name for path in tmp_path.iterdir()] == ["kit"]
+
+
+def test_a_frame_whose_files_would_be_named_as_the_kit_is_refused():
+    frame = make_frame("Kit", [[0, 0], [99, 0], [0, 99]], [[0, 1], [0, 2], [1, 2]])
+    with pytest.raises(InputError, match=r"frame = 'Kit': .*another name"):
+        Request("Kit", "loose", 0, 0, "draft", graph=frame)
 
 
 class Interrupted(Exception):  # noqa: N818  what a user does is no error

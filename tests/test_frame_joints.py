@@ -9,13 +9,10 @@ from hypothesis import strategies as st
 
 from scadgen.errors import GeometryError
 from scadgen.frame.catalogue import named
-from scadgen.frame.graph import make_frame
 from scadgen.frame.joints import (
-    check_ring_ratios,
     least_gap,
     least_ring_ratio,
     least_scale,
-    ring_ratios,
     tube_start,
 )
 from scadgen.joint.lattice import make_lattice
@@ -53,33 +50,6 @@ def test_spacing_is_the_distance_of_the_corners(gap, spacing):
 def test_a_narrower_gap_needs_a_larger_ring():
     ratios = [least_ring_ratio([gap, 2 * math.pi - gap]) for gap in np.linspace(0.1, 3.1, 30)]
     assert (np.diff(ratios) < 0).all()
-
-
-def test_ratios_of_a_frame_are_those_of_its_vertices():
-    frame = named("3.4.6.4")
-    assert ring_ratios(frame, 0.1) == pytest.approx(
-        [least_ring_ratio(frame.gaps(v), 0.1) for v in range(len(frame.vertices))]
-    )
-
-
-def test_a_vertex_that_is_too_narrow_is_named():
-    # A thin triangle, 10 degrees at (0, 0): R > 1 / (2 sin 5) - 1/2 = 5.237.
-    far = 100 * math.tan(math.radians(5))
-    frame = make_frame("thin", [[0, 0], [100, far], [100, -far]], [[0, 1], [1, 2], [2, 0]])
-    check_ring_ratios(frame, 5.24)
-    with pytest.raises(GeometryError) as error:
-        check_ring_ratios(frame, 2.0)
-    # 2 asin(1 / (2 (2 + 1/2))) = 23.07 degrees.
-    assert str(error.value) == (
-        "vertex 1 at (0, 0): edges 10 degrees apart need a ring ratio over 5.237; "
-        "at most 2 works, for 23.07 degrees and more"
-    )
-
-
-def test_a_loose_end_is_named():
-    frame = make_frame("path", [[0, 0], [9, 0], [9, 9]], [[0, 1], [1, 2]])
-    with pytest.raises(GeometryError, match=r"vertex 0 at \(0, 0\) has one edge \(and 1 more\)"):
-        check_ring_ratios(frame, 2.0)
 
 
 def test_the_least_scale_has_room_for_joints_and_rest():

@@ -1,4 +1,4 @@
-"""Frames of any kind become kits whose plans are proved, or are refused with their place."""
+"""Random frames become kits whose plans are proved; what has no room is refused with its place."""
 
 import importlib.util
 import re
@@ -34,7 +34,8 @@ FRAMES = script()
 def test_a_random_frame_becomes_a_proved_kit_with_a_proved_plan(seed):
     frame = FRAMES.random_frame(np.random.default_rng(seed), most=6)
     end, said = FRAMES.become(frame)
-    assert end == "kit" or (end == "refused" and "vertex" in said), said
+    # At lone ends of edges nothing may hold what is sharply bent.
+    assert end in ("kit", "kit, not held"), said
 
 
 @given(st.integers(0, 2**32 - 1))

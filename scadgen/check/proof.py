@@ -10,7 +10,7 @@ from scadgen.check.known import known_ways
 from scadgen.check.locking import joint_locks
 from scadgen.check.result import Result
 from scadgen.check.ways import come_apart
-from scadgen.errors import GeometryError
+from scadgen.errors import JointError
 from scadgen.kit.model import Joint, Kit, Way
 from scadgen.kit.store import read_way, way_entry
 from scadgen.solid.affine import AffineSolid
@@ -81,7 +81,7 @@ def proved(
 
     Raises
     ------
-    GeometryError
+    JointError
         One does not lock, or no way is found on which it comes apart: the first of them.
     """
     claims = [Claim(_alone(kit, joint), joint) for joint in kit.joints]
@@ -109,7 +109,7 @@ def prove(claim: Claim, say: Callable[[str], None] = lambda _: None) -> Joint:
 
     Raises
     ------
-    GeometryError
+    JointError
         It does not lock, or no way is found on which it comes apart.
     """
     joint = claim.joint
@@ -118,12 +118,12 @@ def prove(claim: Claim, say: Callable[[str], None] = lambda _: None) -> Joint:
     for proof in proofs(claim.kit, joint, lambda what: say(of + what)):
         result = proof.result
         if not result.good:
+            fault = f"{result.check}: {result.figure}, must be {result.bound}"
             msg = (
-                f"{of}weave {joint.weave['name']}: {result.check}: {result.figure}, must be "
-                f"{result.bound}; another weave or more clearance helps, or --unchecked makes "
-                "the kit all the same"
+                f"{of}weave {joint.weave['name']}: {fault}; another weave or more clearance "
+                "helps, or --unchecked makes the kit all the same"
             )
-            raise GeometryError(msg)
+            raise JointError(msg, joint.name, fault)
         say(of + result.check)
         verdicts[result.check] = result.figure
         if proof.way:

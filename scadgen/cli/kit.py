@@ -179,19 +179,20 @@ def kit(
 
 def _made(request: Request, means: Means, bar: Bar, *, unchecked: bool) -> tuple[Kit, float]:
     """The kit, proved unless that is not wanted, and the share of the time that is gone."""
-    from scadgen.check.proof import proved
     from scadgen.kit.build import build
+    from scadgen.plan.keyed import proved_kit
+
+    proving = bar.steps(_COMPUTED, _PROVED, _PROOFS)
 
     def computed(count: int, of: int) -> None:
+        nonlocal proving
+        proving = bar.steps(_COMPUTED, _PROVED, of if of > 1 else _PROOFS)
         bar.reach(_COMPUTED * count / of, f"computing the joints, {count} of {of}")
 
     bar.reach(0.0, "computing the joints")
-    made = build(request, means, computed)
     if unchecked:
-        return made, _COMPUTED
-    about = len(made.joints) if len(made.joints) > 1 else _PROOFS
-    step = bar.steps(_COMPUTED, _PROVED, about)
-    return proved(made, means, lambda what: step(f"proving {what}")), _PROVED
+        return build(request, means, computed), _COMPUTED
+    return proved_kit(request, means, computed, lambda what: proving(f"proving {what}")), _PROVED
 
 
 def _say(made: Kit, folder: Path, notes: Sequence[str]) -> None:
@@ -236,9 +237,9 @@ def _request(frame: str, options: dict[str, Any]) -> tuple[Request, tuple[str, .
     cells = {"rows": rows, "columns": columns}
     read = load_frame(frame, of_frame | {n: v for n, v in cells.items() if v is not None})
     named = frame in NAMES or frame in ALIASES
+    name = re.sub(r"[^A-Za-z0-9.-]+", "_", frame if named else Path(frame).stem).strip("._-")
     request = Request(
-        re.sub(r"[^A-Za-z0-9.-]+", "_", frame if named else Path(frame).stem).strip("._-")
-        or "frame",
+        "frame" if name.lower() in ("", "kit") else name,
         options["key"] or "loose",
         0,
         0,

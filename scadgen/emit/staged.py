@@ -122,9 +122,10 @@ def _swap(stage: Path, target: Path, old: Path, sort: Sort) -> None:
             shutil.copytree(source, stage / source.name, symlinks=True)
         else:
             shutil.copy2(source, stage / source.name, follow_symlinks=False)
-    target.rename(old)
     try:
+        target.rename(old)
         stage.rename(target)
     except BaseException:  # an interrupt as well: what was there comes back
-        old.rename(target)
+        if old.exists() and not target.exists():
+            old.rename(target)
         raise

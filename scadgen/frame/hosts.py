@@ -26,6 +26,9 @@ __all__ = ["Hosted", "Shape", "hosted"]
 #: Directions of a joint at the end of a lone edge: its own, and two caps.
 _LONE = np.array([0.0, 2 * np.pi / 3, 4 * np.pi / 3])
 
+#: Least gap of a joint that a lone end may stand in.
+_NARROW = np.pi / 3
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Shape:
@@ -50,7 +53,12 @@ class Shape:
     @property
     def gaps(self) -> Floats:
         """``(k,) float``: angle from each direction to the next."""
-        return np.diff(np.append(self.directions, 2 * np.pi))
+        return _gaps(self.directions)
+
+
+def _gaps(directions: Floats) -> Floats:
+    """Angle from each direction, ascending from 0, to the next."""
+    return np.diff(np.append(directions, 2 * np.pi))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -150,18 +158,32 @@ def _at_rim(frame: Frame) -> NDArray[np.bool_]:
 def _hosts(same: Sameness, kept: Collection[int]) -> list[list[_Host]]:
     """The ways in which each class of joints may stand: as itself, if it is to be kept.
 
-    It fits into classes with more edges; those that are most used come first.
+    It fits into classes with more edges; those that are most used come first.  A class whose
+    hosts are all hosted themselves, by what it does not fit into, stands as itself.
     """
     directions = [joint.directions for joint in same.joints]
     found: list[list[_Host]] = []
+    itself: list[_Host] = []
     for number, own in enumerate(directions):
         larger = [n for n, other in enumerate(directions) if len(other) > len(own)]
         larger = [] if number in kept else larger
+        if len(own) == 1:
+            larger = [n for n in larger if _holds_lone_ends(directions[n])]
         larger.sort(key=lambda n: (-len(same.joints[n].vertices), n))
         fits = [host for n in larger for host in _fits(own, n, directions[n])]
         alone = _Host(number, 0.0, tuple(range(len(own)))) if len(own) > 1 else _Host(-1, 0.0, (0,))
         found.append(fits or [alone])
-    return [list(_roots(found, hosts)) for hosts in found]
+        itself.append(alone)
+    return [list(_roots(found, hosts)) or [own] for hosts, own in zip(found, itself, strict=True)]
+
+
+def _holds_lone_ends(directions: Floats) -> bool:
+    """Whether a lone end may stand in a joint with these directions.
+
+    Narrow gaps take a wide ring; across a wide one connectors hold only what is held elsewhere too.
+    """
+    gaps = _gaps(directions)
+    return bool(gaps.min() > _NARROW - ANGLE and gaps.max() < np.pi + ANGLE)
 
 
 def _fits(own: Floats, number: int, other: Floats) -> Iterator[_Host]:

@@ -10,17 +10,13 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from scadgen.errors import GeometryError
 from scadgen.frame.graph import Frame
-from scadgen.frame.planarity import where
 from scadgen.solid.affine import Floats
 
 __all__ = [
-    "check_ring_ratios",
     "least_gap",
     "least_ring_ratio",
     "least_scale",
-    "ring_ratios",
     "tube_start",
 ]
 
@@ -59,50 +55,6 @@ def least_gap(ring_ratio: float, spacing: float = 0.0) -> float:
     start = float(tube_start(ring_ratio))
     share = spacing / math.hypot(2 * start, 1.0)
     return 2 * (math.asin(min(share, 1.0)) + math.atan2(1.0, 2 * start))
-
-
-def ring_ratios(frame: Frame, spacing: float = 0.0) -> Floats:
-    """`least_ring_ratio` of each vertex: ``(n,) float``."""
-    need = _least(frame.ends.gap / 2, spacing)
-    return np.asarray(np.maximum.reduceat(need, frame.ends.first[:-1]))
-
-
-def check_ring_ratios(frame: Frame, most: float, spacing: float = 0.0) -> None:
-    """Refuse vertices that no joint can stand at.
-
-    Parameters
-    ----------
-    frame
-        The frame.
-    most
-        Largest ring ratio there is.
-    spacing
-        Least distance of two tubes where they start, in sides.
-
-    Raises
-    ------
-    GeometryError
-        A vertex has one edge only, or two edges so close that their tubes would overlap on
-        the largest ring: which vertex, and what it needs.
-    """
-    loose = np.flatnonzero(frame.degree < 2)
-    if len(loose):
-        msg = (
-            f"vertex {loose[0]} at {where(frame.vertices[loose[0]])} has one edge"
-            f"{_more(len(loose))}: a joint needs two"
-        )
-        raise GeometryError(msg)
-    need = ring_ratios(frame, spacing)
-    count = np.count_nonzero(need >= most)
-    if count:
-        worst = int(need.argmax())
-        gap = math.degrees(frame.gaps(worst).min())
-        msg = (
-            f"vertex {worst} at {where(frame.vertices[worst])}: edges {gap:.4g} degrees apart "
-            f"need a ring ratio over {need[worst]:.4g}{_more(int(count))}; at most {most:g} works, "
-            f"for {math.degrees(least_gap(most, spacing)):.4g} degrees and more"
-        )
-        raise GeometryError(msg)
 
 
 def least_scale(frame: Frame, side: float, ring_ratio: ArrayLike, rest: float = 0.0) -> float:

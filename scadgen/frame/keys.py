@@ -7,7 +7,8 @@ every vertex has one.  So n vertices and m edges take max(n, m - n + 1) keys or 
 The fewest parts come from joints that are alike.  In this order are tried: one key, the same in
 all joints of a shape; one key, the same in all joints of a shape that are turned alike; what
 takes few keys, wherever they are; and instead of that several keys, the same in all joints of a
-shape, where the frame is so dense that it gives fewer parts.
+shape, where the frame is so dense that it gives fewer parts.  Joints that were refused with their
+keys where they were are kept out of all of these as far as that goes.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from scipy.sparse.csgraph import connected_components, maximum_bipartite_matchin
 from scadgen.frame.graph import Frame
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["ANGLE", "Places", "choose_keys"]
+__all__ = ["ANGLE", "Places", "Refused", "choose_keys"]
 
 #: Directions as near as this are the same, in radians; twice what sameness allows a joint.
 ANGLE = 2e-4
@@ -39,6 +40,35 @@ _KEYS = 4
 
 #: The slots that have keys, of each vertex.
 Keys = Sequence[Collection[int]]
+
+
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """A joint that is not to be made, with its keys where they are.
+
+    Parameters
+    ----------
+    turns
+        Directions of its connectors from its first key on, ascending, in degrees.
+    keys
+        Which of these are keys.
+    """
+
+    turns: tuple[float, ...]
+    keys: tuple[int, ...]
+
+    def is_like(self, directions: Floats, slots: Collection[int]) -> bool:
+        """Whether it is the joint with these directions and keys."""
+        count = len(directions)
+        if count != len(self.turns) or len(slots) != len(self.keys):
+            return False
+        for first in slots:
+            turns = (np.roll(directions, -first) - directions[first]) % (2 * np.pi)
+            off = (turns - np.radians(self.turns) + np.pi) % (2 * np.pi) - np.pi
+            keys = tuple(sorted((slot - first) % count for slot in slots))
+            if keys == self.keys and bool((np.abs(off) < ANGLE).all()):
+                return True
+        return False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,6 +89,8 @@ class Places:
         ``(n,) float``: the angle that maps its shape's directions to the vertex's.
     directions
         Of each shape.
+    refused
+        Joints to keep out.
     """
 
     frame: Frame
@@ -67,6 +99,12 @@ class Places:
     slots: Ints
     turn: Floats
     directions: Sequence[Floats]
+    refused: Sequence[Refused] = ()
+
+    def refuse(self, vertex: int, keys: Collection[int]) -> bool:
+        """Whether the joint at a vertex is to be kept out, if it has these keys."""
+        directions = self.directions[int(self.shape_of[vertex])]
+        return any(one.is_like(directions, keys) for one in self.refused)
 
 
 def choose_keys(places: Places, parts: Callable[[Keys], int]) -> Keys:
@@ -106,7 +144,14 @@ def _alike(places: Places, group: Ints, most: int, parts: Callable[[Keys], int])
     counts = [places.counts[n] for n in places.shape_of[first]]
     # Turned by a symmetry of all joints of a shape, a choice is the same.
     by_shape = len(first) == len(places.counts)
-    runs = [list(_runs(count, period if by_shape else count, most)) for count, period in counts]
+    runs = [
+        [
+            slots
+            for slots in _runs(count, period if by_shape else count, most)
+            if not places.refuse(vertex, slots)
+        ]
+        for vertex, (count, period) in zip(first.tolist(), counts, strict=True)
+    ]
     number = math.prod(len(choices) for choices in runs)
     if number > min(_CHOICES, _EDGES // max(1, len(places.slots))):
         return None
@@ -119,8 +164,9 @@ def _alike(places: Places, group: Ints, most: int, parts: Callable[[Keys], int])
             break
         if _is_enough(places, group, choice):
             keys = [choice[n] for n in group]
-            if best is None or (pegs, parts(keys)) < best:
-                best, found = (pegs, parts(keys)), keys
+            cost = pegs, parts(keys)
+            if best is None or cost < best:
+                best, found = cost, keys
     return found
 
 
@@ -158,8 +204,13 @@ class _Few:
     def chosen(self) -> list[set[int]]:
         """The slots that have keys at each vertex."""
         split = np.flatnonzero(~_forest(self._frame))
-        for edge, end in zip(split.tolist(), _ends(self._frame, split), strict=True):
-            self._keys[int(self._frame.edges[edge, end])].add(int(self._places.slots[edge, end]))
+        ends = list(zip(split.tolist(), self._one_a_vertex(split), strict=True))
+        for edge, end in ends:
+            if end is not None:
+                self._add(edge, end)
+        for edge, end in ends:
+            if end is None:
+                self._add(edge, 0 if self._refuse(edge, 1) and not self._refuse(edge, 0) else 1)
         shape_of = self._places.shape_of.tolist()
         usual = Counter(
             (shape_of[v], self._direction(v, slot))
@@ -171,6 +222,28 @@ class _Few:
                 keys.add(self._best(vertex, usual))
         return self._keys
 
+    def _one_a_vertex(self, split: Ints) -> list[int | None]:
+        """At which end each of these edges has its key: one a vertex, as far as that goes."""
+        rows, columns = np.repeat(np.arange(len(split)), 2), self._frame.edges[split].ravel()
+        fit = [not self._refuse(edge, end) for edge in split.tolist() for end in (0, 1)]
+        pairs = (np.ones(sum(fit)), (rows[fit], columns[fit]))
+        choice = coo_array(pairs, shape=(len(split), len(self._frame.vertices)))
+        vertex = maximum_bipartite_matching(choice.tocsr(), perm_type="column").tolist()
+        return [
+            None if v < 0 else int(self._frame.edges[edge, 0] != v)
+            for edge, v in zip(split.tolist(), vertex, strict=True)
+        ]
+
+    def _refuse(self, edge: int, end: int) -> bool:
+        """Whether a joint is to be kept out once it has a key at this end of an edge as well."""
+        vertex = int(self._frame.edges[edge, end])
+        return self._places.refuse(
+            vertex, self._keys[vertex] | {int(self._places.slots[edge, end])}
+        )
+
+    def _add(self, edge: int, end: int) -> None:
+        self._keys[int(self._frame.edges[edge, end])].add(int(self._places.slots[edge, end]))
+
     def _direction(self, vertex: int, slot: int) -> int:
         """Direction of a slot at a vertex, in steps that are coarse enough to be the same."""
         directions = self._places.directions[self._places.shape_of[vertex]]
@@ -178,13 +251,14 @@ class _Few:
         return round(float(angle % (2 * np.pi)) / (4 * ANGLE)) % round(np.pi / (2 * ANGLE))
 
     def _best(self, vertex: int, usual: Counter[tuple[int, int]]) -> int:
-        """The slot for a lone key: as at most others; else of a cap; else the last."""
+        """The slot for a lone key: not a refused one; as at most others; of a cap; the last."""
         shape = int(self._places.shape_of[vertex])
         ends = np.argwhere(self._frame.edges == vertex)
         taken = {int(self._places.slots[edge, end]) for edge, end in ends}
         return max(
             range(self._places.counts[shape][0]),
             key=lambda slot: (
+                not self._places.refuse(vertex, {slot}),
                 usual[shape, self._direction(vertex, slot)],
                 slot not in taken,
                 slot,
@@ -203,21 +277,6 @@ def _forest(frame: Frame) -> NDArray[np.bool_]:
         if _is_forest(frame.edges[tried], len(frame.vertices)):
             whole = tried
     return whole
-
-
-def _ends(frame: Frame, split: Ints) -> list[int]:
-    """At which end each of these edges has its key: one a vertex, as far as that goes.
-
-    The others have theirs at the upper end.
-    """
-    count = len(split)
-    rows, columns = np.repeat(np.arange(count), 2), frame.edges[split].ravel()
-    choice = coo_array((np.ones(2 * count), (rows, columns)), shape=(count, len(frame.vertices)))
-    vertex = maximum_bipartite_matching(choice.tocsr(), perm_type="column")
-    return [
-        int(frame.edges[edge, 0] != v if v >= 0 else 1)
-        for edge, v in zip(split.tolist(), vertex.tolist(), strict=True)
-    ]
 
 
 def _is_forest(edges: Ints, count: int) -> bool:

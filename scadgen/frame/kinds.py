@@ -9,7 +9,7 @@ import numpy as np
 
 from scadgen.frame.graph import Frame
 from scadgen.frame.hosts import Hosted, Shape, hosted
-from scadgen.frame.keys import Places, choose_keys
+from scadgen.frame.keys import Places, Refused, choose_keys
 from scadgen.frame.sameness import Sameness
 from scadgen.solid.affine import Floats, Ints
 
@@ -72,7 +72,9 @@ class Kinds:
         )
 
 
-def choose_kinds(frame: Frame, same: Sameness, *, rim: bool = True) -> Kinds:
+def choose_kinds(
+    frame: Frame, same: Sameness, *, rim: bool = True, refused: Sequence[Refused] = ()
+) -> Kinds:
     """Fill up rims with caps, and choose the keys.
 
     Parameters
@@ -84,6 +86,8 @@ def choose_kinds(frame: Frame, same: Sameness, *, rim: bool = True) -> Kinds:
     rim
         Whether a joint that lacks edges of another gets caps in their place.  Without, only
         lone ends of edges get some.
+    refused
+        Joints to keep out, by other keys, as far as that goes.
     """
     found = hosted(frame, same, rim=rim)
 
@@ -92,7 +96,7 @@ def choose_kinds(frame: Frame, same: Sameness, *, rim: bool = True) -> Kinds:
 
     counts = [(len(shape.directions), shape.period) for shape in found.shapes]
     directions = [shape.directions for shape in found.shapes]
-    places = Places(frame, found.shape_of, counts, found.slots, found.turn, directions)
+    places = Places(frame, found.shape_of, counts, found.slots, found.turn, directions, refused)
     return gathered(choose_keys(places, lambda keys: _parts(gathered(keys), frame, same)))
 
 

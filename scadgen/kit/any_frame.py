@@ -136,7 +136,7 @@ def _graph(request: Request) -> Frame:
 def _joints(request: Request, frame: Frame) -> tuple[Sameness, Kinds, list[Weave]]:
     """What of a frame is the same, its kinds of joints, and the weave of each."""
     same = sameness(frame)
-    kinds = choose_kinds(frame, same, rim=request.rim == "caps")
+    kinds = choose_kinds(frame, same, rim=request.rim == "caps", refused=request.refused)
     return same, kinds, [_weave(frame, kinds, number) for number in range(len(kinds.kinds))]
 
 

@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import Frame
+from scadgen.frame.keys import Refused
 from scadgen.frame.layout import LAYOUTS
 from scadgen.frame.placement import KEYS
 from scadgen.joint.joint import DETAILS
@@ -62,6 +63,8 @@ class Request:
         One of `RIMS`; for a graph.
     resizable
         Whether a graph may be made as large as its joints need.
+    refused
+        Joints of a graph to keep out, by other keys, as far as that goes.
 
     Raises
     ------
@@ -80,6 +83,7 @@ class Request:
     graph: Frame | None = None
     rim: str = "caps"
     resizable: bool = False
+    refused: tuple[Refused, ...] = ()
 
     def __post_init__(self) -> None:
         """Refuse names that do not exist."""
@@ -92,14 +96,10 @@ class Request:
             if value not in known:
                 msg = f"{name} = {value!r}: must be one of {', '.join(known)}"
                 raise InputError(msg)
-        for name in self.values:
-            if name not in PARAMETERS:
-                msg = f"{name}: not a live parameter; must be one of {', '.join(PARAMETERS)}"
-                raise InputError(msg)
-        for name, length in self.values.items():
-            if not 0 <= length <= _LONGEST:
-                msg = f"{name} = {length:g} mm: must be a number from 0 to {_LONGEST:g}"
-                raise InputError(msg)
+        if self.frame.lower() == "kit":
+            msg = f"frame = {self.frame!r}: would name its files as kit.json; another name works"
+            raise InputError(msg)
+        self._check_values()
         if self.graph is not None and self.key != "loose":
             grids = " and ".join(VALENCE)
             msg = (
@@ -112,6 +112,17 @@ class Request:
         elif self.weave:
             msg = f"weave {self.weave.name}: each joint of this frame has one of its own"
             raise InputError(msg)
+
+    def _check_values(self) -> None:
+        """Refuse live parameters that do not exist, and lengths that are none."""
+        for name in self.values:
+            if name not in PARAMETERS:
+                msg = f"{name}: not a live parameter; must be one of {', '.join(PARAMETERS)}"
+                raise InputError(msg)
+        for name, length in self.values.items():
+            if not 0 <= length <= _LONGEST:
+                msg = f"{name} = {length:g} mm: must be a number from 0 to {_LONGEST:g}"
+                raise InputError(msg)
 
     @property
     def chosen_weave(self) -> Weave:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -95,11 +94,6 @@ class Plan:
     def proved(self) -> bool:
         """Whether every step is proved, and they take all parts apart."""
         return not self.left and all(step.proved for step in self.steps)
-
-    def moves(self) -> Iterator[Move]:
-        """All moves in order."""
-        for step in self.steps:
-            yield from step.moves
 
     def first(self) -> frozenset[int]:
         """Parts that are there before all moves: none of them goes in alone."""

@@ -28,15 +28,16 @@ from scadgen.interlock.forces import equilibrium, unfelt
 from scadgen.interlock.stops import SLIDES, Stop, stopped
 from scadgen.interlock.verdict import Certificate, Motion, verdict
 from scadgen.plan.slides import sliding
-from scadgen.plan.standing import Standing
+from scadgen.plan.standing import Site, Standing
 from scadgen.plan.touching import Touching
 from scadgen.solid.affine import Floats
 
-__all__ = ["Loose", "Whole", "opens", "whole_frame"]
+__all__ = ["Loose", "Whole", "opens", "parting_joints", "whole_frame"]
 
-#: How far normals of a kit's parts are tilted at most: those are no STL's, but as computed, with
-#: places that are kept to 1e-9 degrees.  Along a large frame forces grow apart as levers do.
-_TILTED = 1e-8
+#: How far normals may be tilted without unlocking the frame, where joints are proved for those of
+#: an STL.  A kit's own are within 4e-8, and as much as this counts as sliding; along a large frame
+#: forces grow apart as levers do.
+_TILTED = SLIDES
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,6 +129,33 @@ def whole_frame(standing: Standing) -> Whole:
     elif check_certificate(every, held, len(boxes), found) < BALANCED:
         return Whole(len(boxes), len(every), loose, len(found.rows), "rows")
     return Whole(len(boxes), len(every), (*loose, Loose(moving, (0.0, 0.0))), 0, "more")
+
+
+def parting_joints(standing: Standing) -> tuple[Site, ...]:
+    """Where a finished frame may come apart though no peg slides.
+
+    A joint may lock only because its tubes are held by joints at their other ends, where a loop
+    leads back to it; at the end of a lone edge nothing holds them.
+
+    Parameters
+    ----------
+    standing
+        The frame.
+
+    Returns
+    -------
+    joints
+        Those at which something moves and something stays; none if the frame is held.
+    """
+    boxes, held = _boxes(standing), (max(standing.elements),)
+    contacts = stopped(Touching(standing).extreme(), _stops(list(_pegs(standing)), tubes=True))
+    if _locked(boxes, contacts, held):
+        return ()
+    found = verdict(make_assembly(boxes, contacts, held))
+    if not isinstance(found, Motion):
+        return ()
+    moving, staying = set(found.parts), set(range(len(boxes))) - set(found.parts)
+    return tuple(standing.sites[n] for n in standing.meeting(moving, staying))
 
 
 def opens(contacts: Contacts, motion: Loose) -> bool:

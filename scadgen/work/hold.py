@@ -24,19 +24,25 @@ def interrupts_held() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
+    before = {number: signal.getsignal(number) for number in _SIGNALS}
     seen: list[int] = []
+    over = False
 
-    def note(number: int, _frame: FrameType | None) -> None:
-        seen.append(number)
+    def note(number: int, frame: FrameType | None) -> None:
+        handler = before[signal.Signals(number)]
+        if not over:
+            seen.append(number)
+        elif callable(handler):  # it came while handlers are put back
+            handler(number, frame)
 
-    before = [(number, signal.getsignal(number)) for number in _SIGNALS]
     for number in _SIGNALS:
         signal.signal(number, note)
     try:
         yield
     finally:
-        for number, handler in before:
+        over = True
+        for number, handler in before.items():
             # None stands for a handler that Python did not set and cannot set again.
             signal.signal(number, signal.SIG_DFL if handler is None else handler)
-        for number in seen[:1]:
-            signal.raise_signal(number)
+        if seen:
+            signal.raise_signal(seen[0])

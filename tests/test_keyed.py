@@ -1,0 +1,66 @@
+"""Kits whose joints are all proved: keys go where joints lock and the frame holds."""
+
+import numpy as np
+import pytest
+
+from scadgen.check.proof import proved
+from scadgen.errors import JointError
+from scadgen.frame.graph import make_frame
+from scadgen.kit.build import Request, build
+from scadgen.kit.store import dumps
+from scadgen.plan.keyed import proved_kit
+from scadgen.plan.standing import stand
+from scadgen.plan.whole import parting_joints, whole_frame
+
+
+def request(name, points, edges):
+    frame = make_frame(name, points, edges)
+    return Request(name, "loose", 0, 0, "draft", graph=frame, resizable=True)
+
+
+def towards(*degrees):
+    turn = np.radians(degrees)
+    return 200 * np.column_stack([np.cos(turn), np.sin(turn)])
+
+
+def gaps_from_key(kit):
+    """The gaps of each joint, from its key on, in whole degrees."""
+    return {tuple(np.diff([*joint.turns, 360]).round().tolist()) for joint in kit.joints}
+
+
+def test_a_joint_that_does_not_lock_gets_another_key():
+    # Half A in a narrow gap, and beyond it more than half a turn.
+    wish = request(
+        "fork", [[0, 0], *towards(0, 39.2, 247.0, 295.4)], [[0, 1], [0, 2], [0, 3], [0, 4]]
+    )
+    with pytest.raises(JointError, match="with the peg held the joint locks") as found:
+        proved(build(wish))
+    said = []
+    kit = proved_kit(wish, say=said.append)
+    assert any(found.value.fault in line and "another key" in line for line in said)
+    assert all(joint.verdicts and joint.ways for joint in kit.joints)
+    assert gaps_from_key(kit) != gaps_from_key(build(wish))
+    assert dumps(proved_kit(wish)) == dumps(kit)
+
+
+def test_keys_go_where_a_frame_holds_that_else_parts_at_a_lone_edge():
+    # A triangle with a tail: a key on the tail would hold on to nothing but its own halves.
+    wish = request("kite", [[0, 0], *towards(131.2, 224.2, 90.0)], [[0, 1], [0, 2], [1, 2], [0, 3]])
+    (site,) = parting_joints(stand(proved(build(wish))))
+    assert site.at == (0.0, 0.0)
+    kit = proved_kit(wish)
+    assert not parting_joints(stand(kit))
+    assert whole_frame(stand(kit)).held
+
+
+def test_a_joint_that_no_key_makes_lock_is_refused_with_its_vertex(monkeypatch):
+    wish = request("kite", [[0, 0], *towards(0.0, 100.0, 200.0)], [[0, 1], [0, 2], [0, 3]])
+
+    def never(kit, *_):
+        message = "joint A: it locks: no"
+        raise JointError(message, kit.joints[-1].name, "it locks: no")
+
+    monkeypatch.setattr("scadgen.plan.keyed.proved", never)
+    message = r"vertex \d at \(.*\), angles .*: it locks: no, whichever connector is its key"
+    with pytest.raises(JointError, match=message):
+        proved_kit(wish)
