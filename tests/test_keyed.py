@@ -53,6 +53,19 @@ def test_keys_go_where_a_frame_holds_that_else_parts_at_a_lone_edge():
     assert whole_frame(stand(kit)).held
 
 
+def test_of_components_each_is_held_by_itself():
+    corners = [[0, 0], [150, 0], [75, 130]]
+    points = [*corners, *([x + 400, y] for x, y in corners)]
+    kit = proved_kit(request("two", points, [[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3]]))
+    standing = stand(kit)
+    whole = whole_frame(standing)
+    assert whole.held
+    assert len(standing.anchors) == 2
+    # Nothing is said to move that is a component by itself, and touches nothing else.
+    assert all(set(one.parts) < set(range(len(kit.placements))) for one in whole.loose)
+    assert max(len(one.parts) for one in whole.loose) < len(kit.placements) / 2
+
+
 def test_a_joint_that_no_key_makes_lock_is_refused_with_its_vertex(monkeypatch):
     wish = request("kite", [[0, 0], *towards(0.0, 100.0, 200.0)], [[0, 1], [0, 2], [0, 3]])
 

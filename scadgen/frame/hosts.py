@@ -17,7 +17,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from scadgen.frame.graph import Frame
-from scadgen.frame.keys import ANGLE
+from scadgen.frame.keys import ANGLE, steps_of
 from scadgen.frame.sameness import Sameness
 from scadgen.solid.affine import Floats, Ints
 
@@ -26,8 +26,8 @@ __all__ = ["Hosted", "Shape", "hosted"]
 #: Directions of a joint at the end of a lone edge: its own, and two caps.
 _LONE = np.array([0.0, 2 * np.pi / 3, 4 * np.pi / 3])
 
-#: Least gap of a joint that a lone end may stand in.
-_NARROW = np.pi / 3
+#: Least gap of a joint that a lone end may stand in, in degrees.
+_NARROW = 60.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -183,7 +183,7 @@ def _holds_lone_ends(directions: Floats) -> bool:
     Narrow gaps take a wide ring; across a wide one connectors hold only what is held elsewhere too.
     """
     gaps = _gaps(directions)
-    return bool(gaps.min() > _NARROW - ANGLE and gaps.max() < np.pi + ANGLE)
+    return bool(gaps.min() > np.radians(_NARROW) - ANGLE and gaps.max() < np.pi + ANGLE)
 
 
 def _fits(own: Floats, number: int, other: Floats) -> Iterator[_Host]:
@@ -245,20 +245,18 @@ class _Choice:
                 self._end(edge, end, chosen[v]) for end, v in enumerate(ends)
             )
         }
-        turns = {(host.joint, self._steps(self.standing(v, host)[0])) for v, host in chosen.items()}
+        turns = {
+            (host.joint, int(steps_of(self.standing(v, host)[0]))) for v, host in chosen.items()
+        }
         for vertex in self._outwards(chosen):
             chosen[vertex] = max(
                 options[vertex],
                 key=lambda host: (
                     self._likeness(vertex, host, chosen, usual),
-                    (host.joint, self._steps(self.standing(vertex, host)[0])) in turns,
+                    (host.joint, int(steps_of(self.standing(vertex, host)[0]))) in turns,
                 ),
             )
         return [chosen[vertex] for vertex in range(len(options))]
-
-    def _steps(self, turn: float) -> int:
-        """A turn in steps that are coarse enough to be the same."""
-        return round(turn % (2 * np.pi) / (4 * ANGLE)) % round(np.pi / (2 * ANGLE))
 
     def _end(self, edge: int, end: int, host: _Host) -> tuple[int, int]:
         """Joint and slot of an edge's end in a host."""

@@ -27,7 +27,7 @@ from scipy.sparse.csgraph import connected_components, maximum_bipartite_matchin
 from scadgen.frame.graph import Frame
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["ANGLE", "Places", "Refused", "choose_keys"]
+__all__ = ["ANGLE", "Places", "Refused", "choose_keys", "steps_of"]
 
 #: Directions as near as this are the same, in radians; twice what sameness allows a joint.
 ANGLE = 2e-4
@@ -127,11 +127,15 @@ def choose_keys(places: Places, parts: Callable[[Keys], int]) -> Keys:
     return few if several is None or parts(few) <= parts(several) else several
 
 
+def steps_of(angles: Floats | float, turn: float = 2 * math.pi) -> Ints:
+    """Angles in whole steps of a turn, coarse enough that those of alike joints are the same."""
+    steps = np.round(np.asarray(angles) % turn / (4 * ANGLE)).astype(np.int64)
+    return np.asarray(steps % round(turn / (4 * ANGLE)))
+
+
 def _turned_alike(places: Places) -> Ints:
     """A number for each vertex, the same for those of one shape that are turned alike."""
-    turns = np.round(places.turn % (2 * np.pi) / (4 * ANGLE)).astype(np.int64)
-    turns %= round(np.pi / (2 * ANGLE))
-    pairs = np.column_stack([places.shape_of, turns])
+    pairs = np.column_stack([places.shape_of, steps_of(places.turn)])
     return np.asarray(np.unique(pairs, axis=0, return_inverse=True)[1]).ravel()
 
 
@@ -245,10 +249,9 @@ class _Few:
         self._keys[int(self._frame.edges[edge, end])].add(int(self._places.slots[edge, end]))
 
     def _direction(self, vertex: int, slot: int) -> int:
-        """Direction of a slot at a vertex, in steps that are coarse enough to be the same."""
+        """Direction of a slot at a vertex, in steps."""
         directions = self._places.directions[self._places.shape_of[vertex]]
-        angle = self._places.turn[vertex] + directions[slot]
-        return round(float(angle % (2 * np.pi)) / (4 * ANGLE)) % round(np.pi / (2 * ANGLE))
+        return int(steps_of(self._places.turn[vertex] + directions[slot]))
 
     def _best(self, vertex: int, usual: Counter[tuple[int, int]]) -> int:
         """The slot for a lone key: not a refused one; as at most others; of a cap; the last."""
@@ -269,8 +272,7 @@ class _Few:
 def _forest(frame: Frame) -> NDArray[np.bool_]:
     """Edges with whole connectors at both ends: all of a direction, while they close no loop."""
     steps = frame.vertices[frame.edges[:, 1]] - frame.vertices[frame.edges[:, 0]]
-    angle = np.arctan2(steps[:, 1], steps[:, 0]) % np.pi
-    direction = np.round(angle / (4 * ANGLE)).astype(np.int64) % round(np.pi / (4 * ANGLE))
+    direction = steps_of(np.arctan2(steps[:, 1], steps[:, 0]), math.pi)
     whole = np.zeros(len(frame.edges), dtype=bool)
     for value in np.unique(direction):
         tried = whole | (direction == value)

@@ -71,6 +71,7 @@ def clusters(standing: Standing) -> list[frozenset[int]]:
 def sliding(standing: Standing) -> Iterator[tuple[frozenset[int], Floats]]:
     """Sets of parts that slide off as one, each with its direction, as small as they can be."""
     groups, tubes = clusters(standing), tubes_of(standing)
+    every = frozenset(range(len(standing.kit.placements)))
     of_part = {part: number for number, group in enumerate(groups) for part in group}
     ends = [(of_part[tube.element], of_part[tube.half], tube.out) for tube in tubes]
     ways = np.unique(np.round([sign * out for *_, out in ends for sign in (1, -1)], 6), axis=0)
@@ -85,9 +86,11 @@ def sliding(standing: Standing) -> Iterator[tuple[frozenset[int], Floats]]:
         count, label = connected_components(graph, directed=True, connection="strong")
         takes = {int(a) for a, b in zip(label[rows], label[columns], strict=True) if a != b}
         for number in sorted(set(range(count)) - takes):
-            if count > 1:
-                members = np.flatnonzero(label == number)
-                yield frozenset().union(*(groups[n] for n in members)), way
+            members = np.flatnonzero(label == number)
+            parts = frozenset().union(*(groups[n] for n in members))
+            # A component of the frame that goes as a whole slides off nothing.
+            if standing.meeting(parts, every - parts):
+                yield parts, way
 
 
 def _members(label: NDArray[np.integer], count: int) -> list[frozenset[int]]:

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from scadgen.errors import InputError, InvariantError
@@ -91,6 +93,16 @@ class Standing:
             for part in sorted({*site.parts.values(), *site.tubes.values()}):
                 found[part].append(number)
         return found
+
+    @cached_property
+    def anchors(self) -> tuple[int, ...]:
+        """The last element of each component of the frame: what is held to see what moves."""
+        size = len(self.kit.placements)
+        of_site = [[*site.parts.values(), *site.tubes.values()] for site in self.sites]
+        rows, columns = np.array([(own[0], part) for own in of_site for part in own]).T
+        graph = coo_array((np.ones(len(rows)), (rows, columns)), shape=(size, size))
+        label = connected_components(graph, directed=False)[1]
+        return tuple(sorted({label[n]: n for n in sorted(self.elements)}.values()))
 
     def meeting(self, parts: Collection[int], others: Collection[int]) -> list[int]:
         """Numbers of the joints at which some parts meet others."""

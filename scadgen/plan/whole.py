@@ -112,7 +112,7 @@ def whole_frame(standing: Standing) -> Whole:
         The frame.
     """
     touching, boxes, pegs = Touching(standing), _boxes(standing), list(_pegs(standing))
-    few, held = touching.extreme(), (max(standing.elements),)
+    few, held = touching.extreme(), standing.anchors
     directions = touching.directions()
     loose = tuple(motion for motion in _motions(standing, pegs) if opens(directions, motion))
     if forces := _locked(boxes, stopped(few, _stops(pegs, tubes=False)), held):
@@ -147,7 +147,7 @@ def parting_joints(standing: Standing) -> tuple[Site, ...]:
     joints
         Those at which something moves and something stays; none if the frame is held.
     """
-    boxes, held = _boxes(standing), (max(standing.elements),)
+    boxes, held = _boxes(standing), standing.anchors
     contacts = stopped(Touching(standing).extreme(), _stops(list(_pegs(standing)), tubes=True))
     if _locked(boxes, contacts, held):
         return ()
