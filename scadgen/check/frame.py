@@ -13,7 +13,7 @@ from scadgen.errors import InputError
 from scadgen.frame.graph import Frame
 from scadgen.frame.joints import least_gap, least_ring_ratio, tube_start
 from scadgen.frame.kinds import choose_kinds
-from scadgen.frame.planarity import where
+from scadgen.frame.planarity import more, where
 from scadgen.frame.sameness import Sameness, joint_name
 from scadgen.joint.weave import LIMITS, any_joint
 from scadgen.kit.room import Room, reaches, room
@@ -81,7 +81,7 @@ class Build:
             yield (
                 f"edge {kind + 1}: {self.frame.lengths[at]:.4g} mm is {worst[kind]:.4g} mm too "
                 f"short for its two joints, from {first} to {second}"
-                f"{_more(int(np.count_nonzero(missing[edges])))}"
+                f"{more(int(np.count_nonzero(missing[edges])))}"
             )
 
     def too_near(self, side: float) -> Iterator[str]:
@@ -94,7 +94,7 @@ class Build:
         """Where the narrowest joint of a kind stands."""
         vertices = self.same.joints[kind].vertices
         narrowest = min(vertices, key=lambda v: self.frame.gaps(v).min())
-        return where(self.frame.vertices[narrowest]) + _more(len(vertices))
+        return where(self.frame.vertices[narrowest]) + more(len(vertices))
 
 
 def rings(
@@ -153,7 +153,3 @@ def _ring(gap: float, ring_ratio: float | None) -> tuple[float, str | None]:
         f"edges {math.degrees(gap):.4g} degrees apart need a ring ratio over {least:.4g}; at most "
         f"{ring_ratio:g} works, for {math.degrees(least_gap(ring_ratio)):.4g} degrees and more"
     )
-
-
-def _more(count: int) -> str:
-    return f" (and {count - 1} more)" if count > 1 else ""

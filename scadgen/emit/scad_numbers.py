@@ -25,7 +25,7 @@ HEIGHT = Range(
     "number_height",
     Linear({}, -HIGHEST),
     Linear({}, HIGHEST),
-    "deeper, numbers could meet a bore",
+    "deeper ones could meet a bore, and higher ones stand off",
 )
 
 

@@ -80,7 +80,3 @@ def _least(half: Floats, spacing: float) -> Floats:
     start = (spacing + np.cos(half)) / (2 * np.maximum(np.sin(half), 1e-12))
     start = np.where(half > np.pi - 1e-9, 0.0, np.maximum(start, 0.0))
     return np.asarray(np.sqrt(start**2 + 0.25) - 0.5)
-
-
-def _more(count: int) -> str:
-    return f" (and {count - 1} more)" if count > 1 else ""

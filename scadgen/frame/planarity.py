@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scadgen.errors import InputError
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["TOUCH", "check_planar", "crossings", "touches", "where"]
+__all__ = ["TOUCH", "check_planar", "crossings", "more", "touches", "where"]
 
 #: A vertex nearer than this to an edge that is not its own lies on it, in mm: a thousand
 #: times the last decimal kept, a thousandth of what any printer resolves.
@@ -19,6 +19,11 @@ TOUCH = 1e-6
 def where(point: Floats) -> str:
     """A point as text: ``(12.5, 40)``, in mm."""
     return f"({point[0] + 0.0:.6g}, {point[1] + 0.0:.6g})"
+
+
+def more(count: int) -> str:
+    """What is said after the first of several: `` (and 3 more)``; nothing after a lone one."""
+    return f" (and {count - 1} more)" if count > 1 else ""
 
 
 def touches(vertices: Floats, edges: Ints, within: float) -> Ints:
@@ -71,7 +76,7 @@ def check_planar(vertices: Floats, edges: Ints) -> None:
         first, second = edges[short[0]]
         msg = (
             f"edge {short[0]} from vertex {first} to {second} has no length, at "
-            f"{where(vertices[first])}{_more(short)}"
+            f"{where(vertices[first])}{more(len(short))}"
         )
         raise InputError(msg)
     on = touches(vertices, edges, TOUCH)
@@ -79,15 +84,15 @@ def check_planar(vertices: Floats, edges: Ints) -> None:
         vertex, edge = on[0]
         apart = np.linalg.norm(vertices[edges[edge]] - vertices[vertex], axis=1)
         what = f"vertex {edges[edge][apart.argmin()]}" if apart.min() <= TOUCH else f"edge {edge}"
-        msg = f"vertex {vertex} at {where(vertices[vertex])} lies on {what}{_more(on)}"
+        msg = f"vertex {vertex} at {where(vertices[vertex])} lies on {what}{more(len(on))}"
         raise InputError(msg)
     pairs = crossings(vertices, edges)
     if len(pairs):
         first, second = _lines(vertices, edges[pairs[0]])
         point = shapely.get_coordinates(shapely.intersection(first, second))[0]
         msg = (
-            f"edges {pairs[0, 0]} and {pairs[0, 1]} cross at {where(point)}{_more(pairs)}: a frame "
-            "has a vertex there"
+            f"edges {pairs[0, 0]} and {pairs[0, 1]} cross at "
+            f"{where(point)}{more(len(pairs))}: a frame has a vertex there"
         )
         raise InputError(msg)
 
@@ -98,7 +103,3 @@ def _lines(vertices: Floats, edges: Ints) -> NDArray[np.object_]:
 
 def _ascending(pairs: Ints) -> Ints:
     return np.asarray(pairs[np.lexsort(pairs.T[::-1])], dtype=np.int64)
-
-
-def _more(found: Ints) -> str:
-    return f" (and {len(found) - 1} more)" if len(found) > 1 else ""

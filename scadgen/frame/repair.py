@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import LARGEST, Frame, make_frame
-from scadgen.frame.planarity import TOUCH, crossings, touches, where
+from scadgen.frame.planarity import TOUCH, crossings, more, touches, where
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["MOST_SEGMENTS", "REPAIRS", "TOLERANCE", "Repaired", "repair"]
@@ -246,8 +246,8 @@ def _cross(work: _Work, *, split: bool) -> bool:
     shares = np.stack([_cross_product(c - a, d - c), _cross_product(c - a, b - a)]) / turn
     at = (a + shares[0][:, None] * (b - a)).round(9) + 0.0
     if not split:
-        more = f" (and {len(at) - 1} more)" if len(at) > 1 else ""
-        msg = f"segments cross at {where(at[0])}{more}; they must be split there, or not cross"
+        place = where(at[0]) + more(len(at))
+        msg = f"segments cross at {place}; they must be split there, or not cross"
         raise InputError(msg)
     work.note("crossings", (f"crossing split at {where(point)}" for point in at))
     new = np.arange(len(work.points), len(work.points) + len(at))

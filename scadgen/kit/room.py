@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scadgen.errors import GeometryError
 from scadgen.frame.graph import Frame
 from scadgen.frame.kinds import Kinds
-from scadgen.frame.planarity import where
+from scadgen.frame.planarity import more, where
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.lattice import make_lattice
 from scadgen.kit.apart import Apart
@@ -103,11 +103,10 @@ class Room:
             first, second = (
                 f"vertex {v} at {where(self.frame.vertices[v])}" for v in self._ends(edge)
             )
-            more = f" (and {count - 1} more)" if count > 1 else ""
             msg = (
                 f"edge {edge} from {first} to {second}, {self.frame.lengths[edge]:.4g} mm "
                 f"long, is {missing[edge]:.4g} mm too short for its two joints with a side of "
-                f"{side:g} mm{more}; {self.works(side)}"
+                f"{side:g} mm{more(count)}; {self.works(side)}"
             )
             raise GeometryError(msg)
         fault = self.apart.fault(side)

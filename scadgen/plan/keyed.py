@@ -124,8 +124,8 @@ def _nowhere(kit: Kit, joint: Joint, error: JointError) -> JointError:
     vertex = int(off.argmin())
     angles = ", ".join(f"{gap:.4g}" for gap in np.diff([*joint.turns, 360.0]))
     msg = (
-        f"vertex {vertex} at {where(graph.vertices[vertex])}, angles {angles}: {error.fault}, "
-        "whichever connector is its key; other angles help, or --unchecked makes the kit all "
-        "the same"
+        f"vertex {vertex} at {where(graph.vertices[vertex])}, angles {angles}: {error.fault}; "
+        "with other keys it is refused as well; other angles help, or --unchecked makes the kit "
+        "all the same"
     )
     return JointError(msg, error.joint, error.fault)

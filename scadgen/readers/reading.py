@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import Frame, make_frame
-from scadgen.frame.planarity import where
+from scadgen.frame.planarity import more, where
 from scadgen.frame.repair import MOST_SEGMENTS, TOLERANCE, repair
 from scadgen.solid.affine import Floats
 
@@ -192,10 +192,9 @@ def _check(frame: Frame, reading: Reading) -> None:
     if len(short):
         worst = int(frame.lengths.argmin())
         ends = " to ".join(where(frame.vertices[v]) for v in frame.edges[worst])
-        more = f" (and {len(short) - 1} more)" if len(short) > 1 else ""
         msg = (
             f"edge from {ends} is {frame.lengths[worst]:.4g} mm long: at least "
             f"{reading.shortest:g} mm, {reading.shortest - frame.lengths[worst]:.4g} mm are "
-            f"missing{more}"
+            f"missing{more(len(short))}"
         )
         raise InputError(msg)
