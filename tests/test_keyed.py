@@ -1,13 +1,16 @@
 """Kits whose joints are all proved: keys go where joints lock and the frame holds."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from scadgen.check.geometry import same
 from scadgen.check.proof import proved
 from scadgen.errors import JointError
 from scadgen.frame.graph import make_frame
 from scadgen.kit.build import Request, build
-from scadgen.kit.store import dumps
+from scadgen.kit.store import dumps, loads
 from scadgen.plan.keyed import proved_kit
 from scadgen.plan.standing import stand
 from scadgen.plan.whole import parting_joints, whole_frame
@@ -40,7 +43,11 @@ def test_a_joint_that_does_not_lock_gets_another_key():
     assert any(found.value.fault in line and "another key" in line for line in said)
     assert all(joint.verdicts and joint.ways for joint in kit.joints)
     assert gaps_from_key(kit) != gaps_from_key(build(wish))
-    assert dumps(proved_kit(wish)) == dumps(kit)
+    # What was refused is kept with the kit, which is made again from it.
+    assert kit.refused
+    assert loads(dumps(kit)).refused == kit.refused
+    assert same(kit).good
+    assert not same(replace(kit, refused=())).good
 
 
 def test_keys_go_where_a_frame_holds_that_else_parts_at_a_lone_edge():

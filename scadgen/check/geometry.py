@@ -88,6 +88,7 @@ def same(kit: Kit) -> Result:
         kit.command,
         kit.graph,
         kit.rim,
+        refused=kit.refused,
     )
     made = build(request)
     pairs = zip(made.joints, kit.joints, strict=False)

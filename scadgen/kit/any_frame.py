@@ -116,6 +116,7 @@ def build_frame(
         placements=tuple(build.placements()),
         graph=frame,
         rim=request.rim,
+        refused=request.refused,
     )
 
 

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from scadgen.frame.graph import Frame
+from scadgen.frame.keys import Refused
 from scadgen.frame.placement import Placement
 from scadgen.interlock.path import Path
 from scadgen.solid.affine import AffineSolid, Range
@@ -160,6 +161,8 @@ class Kit:
         The frame where it has no rows and columns, in mm.
     rim
         Whether joints at its rim have caps where they lack edges; one of `RIMS`.
+    refused
+        Joints of a graph that were kept out, by other keys.
     material
         What it is to be printed with; one of `DENSITIES`.
     slicing
@@ -179,6 +182,7 @@ class Kit:
     placements: tuple[Placement, ...]
     graph: Frame | None = None
     rim: str = "caps"
+    refused: tuple[Refused, ...] = ()
     material: str = "PLA"
     slicing: Slicing | None = None
 

@@ -18,6 +18,7 @@ import numpy as np
 from scadgen import __version__
 from scadgen.errors import InputError, InvariantError, KitError
 from scadgen.frame.graph import make_frame
+from scadgen.frame.keys import Refused
 from scadgen.frame.layout import LAYOUTS, bill, joint
 from scadgen.frame.placement import PARTS, Placement
 from scadgen.interlock.path import Path
@@ -69,6 +70,9 @@ def dumps(kit: Kit) -> str:
         vertices, edges = kit.graph.vertices.tolist(), kit.graph.edges.tolist()
         document["graph"] = {"name": kit.graph.name, "vertices": vertices, "edges": edges}
         document["rim"] = kit.rim
+        document["refused"] = [
+            {"turns": list(one.turns), "keys": list(one.keys)} for one in kit.refused
+        ]
         document["placements"] = [_placement(p) for p in kit.placements]
     head = json.dumps(document, indent=1, allow_nan=False).removesuffix("\n}")
     parts = ",\n".join(
@@ -349,6 +353,9 @@ def _kit(document: dict[str, Any]) -> Kit:
         placements=placements,
         graph=graph and make_frame(graph["name"], graph["vertices"], graph["edges"]),
         rim=document.get("rim", "caps"),
+        refused=tuple(
+            Refused(tuple(one["turns"]), tuple(one["keys"])) for one in document.get("refused", ())
+        ),
     )
 
 

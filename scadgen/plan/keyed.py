@@ -87,7 +87,10 @@ def _keyed(
             continue
         names = () if settled else {site.kind.name for site in parting_joints(stand(found))}
         joints = [joint for joint in kit.joints if joint.name in names]
-        loose = [joint for joint in joints if not _is_among(parting, joint)]
+        # Several keys at a joint are there for a regular frame: alike, they make fewer parts.
+        loose = [
+            joint for joint in joints if len(joint.keys) == 1 and not _is_among(parting, joint)
+        ]
         if not loose:
             return found
         say(f"{loose[0].title}: the frame may come apart there; another key there")
