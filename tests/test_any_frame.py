@@ -180,3 +180,13 @@ def test_pegs_of_wider_rings_are_of_one_shape_and_told_so():
     assert len({peg.points(made.values)[:, 0].min() for peg in pegs}) == len(pegs) > 1
     names = ", ".join(f"`{peg.name}`" for peg in pegs)
     assert f"{names} are pegs of one shape" in readme(made)
+
+
+def test_edges_of_nearly_one_length_are_as_long_when_the_kit_is_made_again():
+    # As people write an equilateral triangle: its sides differ by 0.002 mm, and are one part.
+    frame = make_frame("drawn", [[0, 0], [100, 0], [50, 86.6]], [[0, 1], [1, 2], [2, 0]])
+    kit = build(Request("drawn", "loose", 0, 0, "draft", None, {"side": 6.0}, graph=frame))
+    assert kit.values["edge_length"] == pytest.approx(
+        (frame.lengths.min() + frame.lengths.max()) / 2, abs=1e-6
+    )
+    assert same(kit).good

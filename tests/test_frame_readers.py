@@ -136,7 +136,9 @@ def test_large_files_are_refused_unless_allowed(tmp_path):
     path = written(
         tmp_path, "long.json", {"vertices": vertices, "edges": [[k, k + 1] for k in range(1000)]}
     )
-    assert "1001 vertices: at most 1000, unless you allow more" in refusal(path, Reading(most=1000))
+    assert "1001 vertices: at most 1000, unless more are allowed (--most)" in refusal(
+        path, Reading(most=1000)
+    )
     assert "bytes: at most 5120 for 10 segments" in refusal(path, Reading(most=10))
     assert len(read(path, Reading(most=1001)).frame.edges) == 1000
 

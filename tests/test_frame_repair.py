@@ -47,7 +47,9 @@ def test_crossings_are_split():
 
 
 def test_crossings_are_refused_where_they_are_not_to_be_split():
-    with pytest.raises(InputError, match=r"segments cross at \(5, 5\); they must be split"):
+    with pytest.raises(
+        InputError, match=r"segments cross at \(5, 5\); they must not cross, or be split"
+    ):
         repair("cross", [[[0, 0], [10, 10]], [[0, 10], [10, 0]]], split=False)
 
 
@@ -129,7 +131,11 @@ def test_the_order_of_segments_and_ends_does_not_matter(drawing, random):
         ([[[0, 0], [1, 0]]], {"tolerance": 1e-7}, "tolerance = 1e-07: must be at least 1e-06"),
         ([[[0, 0], [1, 0]]], {"tolerance": np.nan}, "tolerance = nan"),
         ([[[0, 0], [1, 0]]], {"tolerance": 2.0}, "nothing is longer than the tolerance of 2 mm"),
-        ([[[0, 0], [1, 0]]] * 11, {"most": 10}, "11 segments: at most 10, unless you allow more"),
+        (
+            [[[0, 0], [1, 0]]] * 11,
+            {"most": 10},
+            "11 segments: at most 10, unless .*--most",
+        ),
         ([[[k, 0], [k + 1, 0]] for k in range(20)], {"tolerance": 1.0}, r"21 places near .* 19 mm"),
     ],
 )

@@ -247,7 +247,7 @@ def _cross(work: _Work, *, split: bool) -> bool:
     at = (a + shares[0][:, None] * (b - a)).round(9) + 0.0
     if not split:
         place = where(at[0]) + more(len(at))
-        msg = f"segments cross at {place}; they must be split there, or not cross"
+        msg = f"segments cross at {place}; they must not cross, or be split there (no --no-split)"
         raise InputError(msg)
     work.note("crossings", (f"crossing split at {where(point)}" for point in at))
     new = np.arange(len(work.points), len(work.points) + len(at))
@@ -275,5 +275,5 @@ def _cross_product(a: Floats, b: Floats) -> Floats:
 
 def _check_count(count: int, most: int) -> None:
     if count > most:
-        msg = f"{count} segments: at most {most}, unless you allow more"
+        msg = f"{count} segments: at most {most}, unless more are allowed (--most)"
         raise InputError(msg)

@@ -81,7 +81,8 @@ def build_frame(
     frame, side = _graph(request), request.values.get("side", 10.0)
     check_values([SIDE], {"side": side})
     same, kinds, weaves = _joints(request, frame)
-    sized = _sized(request, frame, np.array([weaves[n].ring_ratio for n in kinds.kind_of]))
+    rings = np.array([weaves[n].ring_ratio for n in kinds.kind_of])
+    sized = _sized(request, frame, _shortest(same), rings)
     if sized is not frame:
         # Anew, to the last digit as from the frame that the kit keeps.
         frame = sized
@@ -141,9 +142,14 @@ def _joints(request: Request, frame: Frame) -> tuple[Sameness, Kinds, list[Weave
     return same, kinds, [_weave(frame, kinds, number) for number in range(len(kinds.kinds))]
 
 
-def _sized(request: Request, frame: Frame, rings: Floats) -> Frame:
-    """The frame as large as its shortest edge is to be, or as its joints need."""
-    side, shortest = request.values.get("side", 10.0), float(frame.lengths.min())
+def _shortest(same: Sameness) -> float:
+    """Length of the shortest edges, in mm, as their parts have it."""
+    return min(edge.length for edge in same.edges)
+
+
+def _sized(request: Request, frame: Frame, shortest: float, rings: Floats) -> Frame:
+    """The frame as large as its shortest edges are to be, or as its joints need."""
+    side = request.values.get("side", 10.0)
     wanted = request.values.get("edge_length", shortest)
     if request.resizable and "edge_length" not in request.values:
         need = shortest * least_scale(frame, side, rings, _ROOM)
@@ -202,7 +208,7 @@ class _Build:
     @property
     def unit(self) -> float:
         """Length of the shortest edges, in mm: the edge length."""
-        return round(min(edge.length for edge in self.same.edges), _LENGTH_DECIMALS)
+        return round(_shortest(self.same), _LENGTH_DECIMALS)
 
     @cached_property
     def elements(self) -> dict[tuple[_End, _End, float], str]:

@@ -169,7 +169,7 @@ def default_values(
         "peg_width": math.floor(10 * width) / 10,
         "peg_length": math.floor(10 * length) / 10,
         "peg_clearance": gap,
-        "peg_chamfer": 0.05 * side,
+        "peg_chamfer": round(0.05 * side, 9),
     }
     values |= {name: v for name, v in request.values.items() if name != "bore" or v > 0}
     if "edge_length" not in request.values:

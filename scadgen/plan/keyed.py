@@ -69,9 +69,12 @@ def _keyed(
     """The kit of a graph: first its joints are to be proved, then the frame is to hold."""
     refused: list[Refused] = []
     parting: list[Refused] = []
-    settled = False
+    pegs, settled = 0, False
     while True:
         kit = build(replace(request, refused=(*refused, *parting)), means, done)
+        if parting and _pegs(kit) > pegs:
+            parting, settled = [], True
+            continue
         try:
             found = proved(kit, means, say)
         except JointError as error:
@@ -80,8 +83,7 @@ def _keyed(
             if not _is_among(refused, joint):
                 refused.append(_refused(joint))
             elif parting:
-                # Rather a frame that may come apart at an end than none.
-                parting, settled = [], True
+                parting, settled = [], True  # rather a frame that may come apart than none
             else:
                 raise _nowhere(kit, joint, error) from error
             continue
@@ -94,7 +96,13 @@ def _keyed(
         if not loose:
             return found
         say(f"{loose[0].title}: the frame may come apart there; another key there")
+        pegs = pegs if parting else _pegs(kit)
         parting += map(_refused, loose)
+
+
+def _pegs(kit: Kit) -> int:
+    """How many pegs a kit takes: what is only preferred is not worth more of them."""
+    return sum(place.role == "peg" for place in kit.placements)
 
 
 def _refused(joint: Joint) -> Refused:

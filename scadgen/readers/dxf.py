@@ -44,7 +44,7 @@ def read_dxf(path: Path, reading: Reading) -> Read:
     complaints = _Complaints()
     document = _open(path, complaints)
     if complaints.lines and not reading.skip_unknown:
-        msg = f"is broken: {next(iter(complaints.lines))}; ask to skip what is unknown"
+        msg = f"is broken: {next(iter(complaints.lines))}; --skip-unknown skips what is unknown"
         raise InputError(msg)
     scale = checked_scale(reading, _unit(document) if has_unit else 1.0)
     strange: Counter[str] = Counter()

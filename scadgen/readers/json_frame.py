@@ -74,7 +74,7 @@ def _check_pairs(key: str, rows: Any, kinds: tuple[type, ...], most: int) -> Non
         msg = f"{key}: must be a list of pairs"
         raise InputError(msg)
     if len(rows) > most:
-        msg = f"{len(rows)} {key}: at most {most}, unless you allow more"
+        msg = f"{len(rows)} {key}: at most {most}, unless more are allowed (--most)"
         raise InputError(msg)
     for number, row in enumerate(rows):
         good = isinstance(row, list) and len(row) == 2

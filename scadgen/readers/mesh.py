@@ -170,5 +170,5 @@ def _check_corners(number: int, corners: list[int], least: int) -> None:
 
 def _check_count(count: int, reading: Reading) -> None:
     if count > reading.most:
-        msg = f"{count} vertices or more: at most {reading.most}, unless you allow more"
+        msg = f"{count} vertices or more: at most {reading.most}, unless more are allowed (--most)"
         raise InputError(msg)

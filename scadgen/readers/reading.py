@@ -160,7 +160,7 @@ def unknown(kinds: Counter[str], reading: Reading) -> tuple[str, ...]:
     if len(kinds) > _KINDS_SHOWN:
         shown.append(f"{len(kinds) - _KINDS_SHOWN} more kinds")
     if not reading.skip_unknown:
-        msg = f"{', '.join(shown)}: cannot be part of a frame; ask to skip what is unknown"
+        msg = f"{', '.join(shown)}: cannot be part of a frame; --skip-unknown skips it"
         raise InputError(msg)
     return (f"left out: {', '.join(shown)}",)
 
@@ -177,7 +177,7 @@ def _printable(kind: str) -> str:
 
 def _check(frame: Frame, reading: Reading) -> None:
     if len(frame.edges) > reading.most:
-        msg = f"{len(frame.edges)} edges: at most {reading.most}, unless you allow more"
+        msg = f"{len(frame.edges)} edges: at most {reading.most}, unless more are allowed (--most)"
         raise InputError(msg)
     parts = int(frame.components.max()) + 1
     if parts > 1 and not reading.components:
@@ -185,7 +185,8 @@ def _check(frame: Frame, reading: Reading) -> None:
         first = int((frame.components == frame.components[other]).argmax())
         msg = (
             f"{parts} parts that are not connected, one with {where(frame.vertices[0])}, one with "
-            f"{where(frame.vertices[first])}; connect them, or ask for components"
+            f"{where(frame.vertices[first])}; connect them, in a drawing with a larger "
+            "--tolerance, or take them so (--components)"
         )
         raise InputError(msg)
     short = np.flatnonzero(frame.lengths < reading.shortest)

@@ -70,7 +70,7 @@ class _Drawing:
         self.count += segments
         self.visited += elements
         if max(self.count, self.visited) > self.reading.most:
-            msg = f"more than {self.reading.most} segments, unless you allow more"
+            msg = f"more than {self.reading.most} segments, unless more are allowed (--most)"
             raise InputError(msg)
 
 
