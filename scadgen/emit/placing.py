@@ -1,4 +1,4 @@
-"""Where each piece of a frame goes: the frame as SVG, its elements by name."""
+"""Where each piece of a frame goes: the frame as SVG, its elements and joints by name."""
 
 from __future__ import annotations
 
@@ -34,13 +34,14 @@ def placing(kit: Kit) -> str:
     Returns
     -------
     text
-        SVG: elements have their names, dark squares stand where a peg goes in, and short stubs
-        are loose connectors.
+        SVG: elements have their names and joints their letters, dark squares stand where a peg
+        goes in, and short stubs are loose connectors, named by joint and number.
     """
     points = np.array([p.at for p in kit.placements]) * (_EDGE, -_EDGE)
     corner = points.min(axis=0) - _MARGIN
     width, height = points.max(axis=0) + _MARGIN - corner
     names = set(kit.elements)
+    letters = {piece.part: one.name for one in kit.joints for piece in one.pieces}
     layers: list[list[str]] = [[], [], [], []]
     for placement, point in zip(kit.placements, points - corner, strict=True):
         if placement.part in names:
@@ -49,10 +50,13 @@ def placing(kit: Kit) -> str:
             layers[3].append(_text((point + end) / 2, placement.part))
         elif placement.role == "cap":
             layers[0].append(_line(point, point + _ahead(placement, 2 * _JOINT), "cap"))
+            which = placement.part.partition("_")[2]
+            layers[3].append(_text(point + _ahead(placement, 2.6 * _JOINT), which))
         elif placement.role == "half_a":
             x, y = point
             fill = _colour("half_b")
             layers[1].append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{_JOINT}" fill="{fill}"/>')
+            layers[2].append(_words(point, letters[placement.part]))
         elif placement.role == "peg":
             x, y = point + _ahead(placement, 1.4 * _JOINT) - _KEY / 2
             square = f'<rect x="{x:.1f}" y="{y:.1f}" width="{_KEY}" height="{_KEY}"'
@@ -88,13 +92,16 @@ def _line(start: Floats, end: Floats, role: str) -> str:
 def _text(middle: Floats, name: str) -> str:
     """A name on a light ground, so that it is read on any tube."""
     x, y = middle
-    words = name.replace("_", " ")
-    box = 0.58 * _TEXT * len(words), 1.3 * _TEXT
+    box = 0.58 * _TEXT * len(name), 1.3 * _TEXT
     return (
         f'<rect x="{x - box[0] / 2:.1f}" y="{y - box[1] / 2:.1f}" width="{box[0]:.1f}" '
-        f'height="{box[1]:.1f}" rx="3" fill="white"/>'
-        f'<text x="{x:.1f}" y="{y + 0.35 * _TEXT:.1f}">{words}</text>'
+        f'height="{box[1]:.1f}" rx="3" fill="white"/>{_words(middle, name)}'
     )
+
+
+def _words(middle: Floats, words: str) -> str:
+    x, y = middle
+    return f'<text x="{x:.1f}" y="{y + 0.35 * _TEXT:.1f}">{words}</text>' if words else ""
 
 
 def _colour(role: str) -> str:
