@@ -18,15 +18,15 @@ from scipy.spatial import cKDTree
 from scadgen.joint.weave import Weave
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["SiteCurve", "distances"]
+__all__ = ["SiteCurve", "distances", "slopes"]
 
 #: How gently an arm that followed the ring begins to weave, in sides.
 _GENTLE = 0.25
 
 #: Newton steps to the nearest point; quadratic from a sample's distance, so 1e-12 after 4.
-_STEPS = 4
+_STEPS = 5
 
-#: A step smaller than this, in a curve's parameter, is the last: the next would be its square.
+#: A step smaller than this, in a curve's parameter, changes no distance: that has its square.
 _STILL = 1e-8
 
 
@@ -47,6 +47,22 @@ class _Vectors(NamedTuple):
     def rows(self, some: Ints) -> _Vectors:
         """Some of them."""
         return _Vectors(self.plan[some], self.height[some])
+
+
+class _Arms(NamedTuple):
+    """Of one curve, or of each of several points: which way it leaves, and its arms.
+
+    Their last axis is of what comes before the edge and what comes after it.
+    """
+
+    angle: Floats
+    plain: Floats
+    reach: Floats
+    rate: Floats
+
+    def of(self, curve: Ints, after: Ints) -> _Arms:
+        """One arm a point, of these of several curves."""
+        return _Arms(self.angle[curve], *(each[curve, after] for each in self[1:]))
 
 
 class SiteCurve:
@@ -70,43 +86,141 @@ class SiteCurve:
     ) -> None:
         self.weave = weave
         self._arguments = (after, before, samples)
-        self._angle = angle
         gaps = 2 * weave.ring_ratio * np.array([before, after])
         woven = np.minimum(gaps, gaps.max() if weave.stretch is None else weave.stretch)
-        self._plain, self._reach = (gaps - woven) / 2, weave.span * woven
-        self._rate = np.array(
-            [_way_of(*pair) for pair in zip(self._reach, self._plain, strict=True)]
-        )
-        self._parameters = np.linspace(-1.0, 1.0, samples)
-        self._spacing = 2.0 / (samples - 1)
+        plain, reach = (gaps - woven) / 2, weave.span * woven
+        rate = np.array([_way_of(*pair) for pair in zip(reach, plain, strict=True)])
+        self.arms = _Arms(np.array(angle), plain, reach, rate)
+        self.spacing = 2.0 / (samples - 1)
         # Sides that differ meet at an angle, which no step towards a nearest point may cross.
-        sides = np.stack([self._reach, self._plain])
-        self._is_smooth = bool(np.allclose(sides[:, 0], sides[:, 1], rtol=0, atol=1e-9))
-        if not self._is_smooth:
+        self.is_smooth = bool(np.allclose([reach[0], plain[0]], [reach[1], plain[1]], 0, 1e-9))
+        self._parameters = np.linspace(-1.0, 1.0, samples)
+        if not self.is_smooth:
             self._parameters = np.union1d(self._parameters, [0.0])
-        self._places, self._slopes, _ = self._derivatives(self._parameters)
-        self._tree = cKDTree(self._places.stacked())
+        self._tree = cKDTree(self.points(self._parameters))
 
     def turned(self, angle: float) -> SiteCurve:
         """The curve turned about the ring's axis."""
-        return SiteCurve(self.weave, self._angle + angle, *self._arguments)
+        return SiteCurve(self.weave, float(self.arms.angle) + angle, *self._arguments)
 
     def points(self, u: Floats) -> Floats:
         """Points of the curve: ``u`` in [-1, 1], shape ``(...)``, gives ``(..., 3)``."""
-        return self._derivatives(u)[0].stacked()
+        one = _Curves([self])
+        return one.derivatives(np.zeros(u.shape, dtype=np.intp), u)[0].stacked()
 
-    def _derivatives(self, u: Floats) -> tuple[_Vectors, _Vectors, _Vectors]:
+    def distance(self, points: Floats) -> tuple[Floats, Floats]:
+        """Distance from the curve, and its gradient.
+
+        Parameters
+        ----------
+        points
+            ``(k, 3) float``, in sides.
+
+        Returns
+        -------
+        distance
+            ``(k,) float``.
+        gradient
+            ``(k, 3) float``, unit vectors away from the nearest point.
+        """
+        return slopes([self], points, np.zeros(len(points), dtype=np.intp))
+
+    def from_sample(self, points: Floats) -> tuple[Floats, Floats]:
+        """Distance from the nearest sample, ``(k,)``, above the curve's, and its parameter."""
+        distance, sample = self._tree.query(points)
+        return np.asarray(distance, dtype=np.float64), self._parameters[sample]
+
+    @cached_property
+    def between_samples(self) -> float:
+        """By how much a distance from the nearest sample may be above the curve's, in sides."""
+        samples = np.asarray(self._tree.data)
+        return float(np.linalg.norm(np.diff(samples, axis=0), axis=1).max())
+
+
+def distances(
+    curves: Sequence[SiteCurve], points: Floats, beyond: float | Floats = np.inf
+) -> Floats:
+    """Distance of points from each curve.
+
+    Parameters
+    ----------
+    curves
+        Site curves of one weave.
+    points
+        ``(..., 3) float``, in sides.
+    beyond
+        How much farther than the nearest curve another may be, in sides, for its distance to
+        be wanted, of all points or of each: of those that are farther it is a sample's, which is
+        no less.
+
+    Returns
+    -------
+    distances
+        ``(curves, ...) float``, in sides.
+    """
+    flat = points.reshape(-1, 3)
+    sampled = [curve.from_sample(flat) for curve in curves]
+    found = np.stack([far for far, _ in sampled])
+    limit = found.min(axis=0) + np.broadcast_to(beyond, points.shape[:-1]).ravel()
+    coarse = np.array([curve.between_samples for curve in curves])
+    which, row = np.nonzero(found <= limit + coarse[:, None])
+    near = np.stack([u for _, u in sampled])[which, row]
+    away = _Curves(curves).away(which, flat[row], near)
+    found[which, row] = np.sqrt(away.dot(away))
+    return found.reshape(len(curves), *points.shape[:-1])
+
+
+def slopes(curves: Sequence[SiteCurve], points: Floats, which: Ints) -> tuple[Floats, Floats]:
+    """Distance of each point from a curve of its own, and its gradient.
+
+    Parameters
+    ----------
+    curves
+        Site curves of one weave.
+    points
+        ``(k, 3) float``, in sides.
+    which
+        ``(k,) int``: the number of each point's curve.
+
+    Returns
+    -------
+    distance
+        ``(k,) float``.
+    gradient
+        ``(k, 3) float``, unit vectors away from the nearest point.
+    """
+    near = np.empty(len(points))
+    for number, curve in enumerate(curves):
+        mine = np.flatnonzero(which == number)
+        near[mine] = curve.from_sample(points[mine])[1]
+    away = _Curves(curves).away(which, points, near)
+    distance = np.sqrt(away.dot(away))
+    return distance, away.stacked() / np.maximum(distance, np.finfo(float).tiny)[:, None]
+
+
+class _Curves:
+    """Site curves of one weave, for points each of which has one of them."""
+
+    def __init__(self, curves: Sequence[SiteCurve]) -> None:
+        self._weave = curves[0].weave
+        arms = zip(*(curve.arms for curve in curves), strict=True)
+        self._arms = _Arms(*(np.stack(each) for each in arms))
+        self._spacing = np.array([curve.spacing for curve in curves])
+        self._bent = np.array([not curve.is_smooth for curve in curves])
+        all_of_them = np.arange(len(curves))
+        self._start, self._ahead, _ = self.derivatives(all_of_them, np.zeros(len(curves)))
+
+    def derivatives(self, which: Ints, u: Floats) -> tuple[_Vectors, _Vectors, _Vectors]:
         """Position, first and second derivative by ``u``.
 
         The woven arm at its own length, carried along the ring by what it starts late.
         """
-        side = (u >= 0).astype(np.intp)
-        rate = self._rate[side]
+        angle, plain, reach, rate = self._arms.of(which, (u >= 0).astype(np.intp))
         way = u * rate
-        length, slope, curve = _delayed(way, self._plain[side])
-        place, first, second = self._woven(length, self._reach[side])
-        radius = self.weave.ring_ratio
-        carried = np.exp(1j * (self._angle + (way - length) / radius))
+        length, slope, curve = _delayed(way, plain)
+        place, first, second = _woven(self._weave, length, reach)
+        radius = self._weave.ring_ratio
+        carried = np.exp(1j * (angle + (way - length) / radius))
         spin = 1j * (1 - slope) / radius
         along, across = slope * rate * carried, spin * rate * carried
         return (
@@ -124,63 +238,16 @@ class SiteCurve:
             ),
         )
 
-    def _woven(self, length: Floats, reach: Floats) -> tuple[_Vectors, _Vectors, _Vectors]:
-        """An arm that weaves from its edge on: place and derivatives by its length in plan."""
-        weave = self.weave
-        bend = weave.bend / weave.ring_ratio
-        half = length * bend / 2
-        # (sin t)/b by way of sinc, so that a straight curve (b = 0) is no special case.
-        turned = np.exp(1j * half)
-        wave = math.pi * weave.periods / reach
-        phase = wave * length
-        rise, fall = weave.amplitude * np.sin(phase), weave.amplitude * np.cos(phase)
-        return (
-            _Vectors(weave.ring_ratio + 1j * length * np.sinc(half / np.pi) * turned, rise),
-            _Vectors(1j * turned**2, wave * fall),
-            _Vectors(-bend * turned**2, -(wave**2) * rise),
-        )
-
-    def distance(self, points: Floats) -> tuple[Floats, Floats]:
-        """Distance from the curve, and its gradient.
-
-        Parameters
-        ----------
-        points
-            ``(k, 3) float``, in sides.
-
-        Returns
-        -------
-        distance
-            ``(k,) float``.
-        gradient
-            ``(k, 3) float``, unit vectors away from the nearest point.
-        """
-        distance, away = self._away(points, self.from_sample(points)[1])
-        return distance, away.stacked() / np.maximum(distance, np.finfo(float).tiny)[:, None]
-
-    def from_sample(self, points: Floats) -> tuple[Floats, Ints]:
-        """Distance from the nearest sample, ``(k,)``, above the curve's, and its number."""
-        distance, sample = self._tree.query(points)
-        return np.asarray(distance, dtype=np.float64), np.asarray(sample, dtype=np.int64)
-
-    @cached_property
-    def between_samples(self) -> float:
-        """By how much a distance from the nearest sample may be above the curve's, in sides."""
-        samples = np.asarray(self._tree.data)
-        return float(np.linalg.norm(np.diff(samples, axis=0), axis=1).max())
-
-    def beside(self, points: Floats, sample: Ints) -> Floats:
-        """Distance from the curve, ``(k,)``, of points whose nearest samples are known."""
-        return self._away(points, sample)[0]
-
-    def _away(self, points: Floats, sample: Ints) -> tuple[Floats, _Vectors]:
-        """How far points are from their nearest points of the curve, and in which direction."""
+    def away(self, which: Ints, points: Floats, u: Floats) -> _Vectors:
+        """The way to points from the nearest ones of their curves, which are near ``u``."""
         target = _Vectors(points[:, 0] + 1j * points[:, 1], points[:, 2])
-        u, low, high = self._around(target, sample)
-        left = np.arange(len(points))
+        u, (low, high) = u.copy(), self._around(which, target, u)
+        away = _Vectors(np.empty(len(u), dtype=np.complex128), np.empty(len(u)))
+        left = np.arange(len(u))
         for _ in range(_STEPS):
-            place, first, second = self._derivatives(u[left])
+            place, first, second = self.derivatives(which[left], u[left])
             off = _less(place, target.rows(left))
+            away.plan[left], away.height[left] = -off.plan, -off.height
             slope, curvature = off.dot(first), first.dot(first) + off.dot(second)
             low[left] = np.where(slope < 0, u[left], low[left])
             high[left] = np.where(slope > 0, u[left], high[left])
@@ -191,50 +258,37 @@ class SiteCurve:
             moving = np.abs(found - u[left]) > _STILL
             u[left] = found
             left = left[moving]
-        away = _less(target, self._derivatives(u)[0])
-        return np.sqrt(away.dot(away)), away
+            if not len(left):
+                break
+        return away
 
-    def _around(self, points: _Vectors, sample: Ints) -> tuple[Floats, Floats, Floats]:
-        """The sample nearest to each point, and between what its nearest point is sought."""
-        u = self._parameters[sample]
-        low, high = np.maximum(u - self._spacing, -1.0), np.minimum(u + self._spacing, 1.0)
-        if not self._is_smooth:
-            off = _less(self._places.rows(sample), points)
-            ahead = off.dot(self._slopes.rows(sample)) < 0
-            low = np.where((u > 0) | ((u == 0) & ahead), np.maximum(low, 0.0), low)
-            high = np.where((u < 0) | ((u == 0) & ~ahead), np.minimum(high, 0.0), high)
-        return u, low, high
+    def _around(self, which: Ints, points: _Vectors, u: Floats) -> tuple[Floats, Floats]:
+        """Between what the nearest points are sought."""
+        spacing = self._spacing[which]
+        low, high = np.maximum(u - spacing, -1.0), np.minimum(u + spacing, 1.0)
+        bent = self._bent[which]
+        if bent.any():
+            off = _less(self._start.rows(which), points)
+            ahead = (u > 0) | ((u == 0) & (off.dot(self._ahead.rows(which)) < 0))
+            low = np.where(bent & ahead, np.maximum(low, 0.0), low)
+            high = np.where(bent & ~ahead, np.minimum(high, 0.0), high)
+        return low, high
 
 
-def distances(
-    curves: Sequence[SiteCurve], points: Floats, beyond: float | Floats = np.inf
-) -> Floats:
-    """Distance of points from each curve.
-
-    Parameters
-    ----------
-    curves
-        Site curves.
-    points
-        ``(..., 3) float``, in sides.
-    beyond
-        How much farther than the nearest curve another may be, in sides, for its distance to
-        be wanted, of all points or of each: of those that are farther it is a sample's, which is
-        no less.
-
-    Returns
-    -------
-    distances
-        ``(curves, ...) float``, in sides.
-    """
-    flat = points.reshape(-1, 3)
-    sampled = [curve.from_sample(flat) for curve in curves]
-    found = np.stack([far for far, _ in sampled])
-    limit = found.min(axis=0) + np.broadcast_to(beyond, points.shape[:-1]).ravel()
-    for curve, far, (_, sample) in zip(curves, found, sampled, strict=True):
-        wanted = np.flatnonzero(far <= limit + curve.between_samples)
-        far[wanted] = curve.beside(flat[wanted], sample[wanted])
-    return found.reshape(len(curves), *points.shape[:-1])
+def _woven(weave: Weave, length: Floats, reach: Floats) -> tuple[_Vectors, _Vectors, _Vectors]:
+    """An arm that weaves from its edge on: place and derivatives by its length in plan."""
+    bend = weave.bend / weave.ring_ratio
+    half = length * bend / 2
+    # (sin t)/b by way of sinc, so that a straight curve (b = 0) is no special case.
+    turned = np.exp(1j * half)
+    wave = math.pi * weave.periods / reach
+    phase = wave * length
+    rise, fall = weave.amplitude * np.sin(phase), weave.amplitude * np.cos(phase)
+    return (
+        _Vectors(weave.ring_ratio + 1j * length * np.sinc(half / np.pi) * turned, rise),
+        _Vectors(1j * turned**2, wave * fall),
+        _Vectors(-bend * turned**2, -(wave**2) * rise),
+    )
 
 
 def _less(first: _Vectors, second: _Vectors) -> _Vectors:

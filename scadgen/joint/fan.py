@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from scadgen.joint.curve import SiteCurve
+from scadgen.joint.curve import SiteCurve, slopes
 from scadgen.joint.walls import Key, Wedge
 from scadgen.solid.affine import Floats, Ints
 
@@ -69,8 +69,6 @@ def _distance_from_wall(
     points: Floats, low: Ints, high: Ints, curves: Sequence[SiteCurve]
 ) -> Floats:
     """Distance of points from the wall between two labels, to first order."""
-    found = [curve.distance(points) for curve in curves]
-    far, slope = np.stack([d for d, _ in found]), np.stack([g for _, g in found])
-    row = np.arange(len(points))
-    steep = np.linalg.norm(slope[low, row] - slope[high, row], axis=1)
-    return np.asarray(np.abs(far[low, row] - far[high, row]) / np.maximum(steep, 1e-6))
+    (near, toward), (far, away) = (slopes(curves, points, which) for which in (low, high))
+    steep = np.linalg.norm(toward - away, axis=1)
+    return np.asarray(np.abs(near - far) / np.maximum(steep, 1e-6))

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["limited_by", "nearest_points"]
+__all__ = ["nearest_points", "pushes"]
 
 #: How exactly rows are met.
 _EXACT = 1e-12
@@ -51,20 +51,22 @@ def nearest_points(rows: Floats, need: Floats) -> tuple[Ints, NDArray[np.bool_]]
     return steps.limiting, steps.found
 
 
-def limited_by(rows: Floats, need: Floats) -> tuple[Floats, Floats]:
-    """The shortest x with rows . x = need, of each program, and the rows' multipliers.
+def pushes(rows: Floats) -> Floats:
+    """How much rows push where they alone limit the shortest x with rows . x = need.
 
     Parameters
     ----------
     rows
         ``(k, 3, 3) float``: independent but for zeros, which fill up.
-    need
-        ``(k, 3) float``; zero where it is filled up.
+
+    Returns
+    -------
+    pushes
+        ``(k, 3, 3) float``: times the need they are the rows' multipliers, whose combination
+        of the rows is x.
     """
     fill = np.where(rows.any(axis=2), 0.0, 1.0)
-    square = rows @ rows.swapaxes(1, 2) + fill[:, None] * np.eye(3)
-    weights = np.asarray(np.linalg.solve(square, need[..., None])[..., 0], dtype=np.float64)
-    return np.einsum("kij,ki->kj", rows, weights), weights
+    return np.asarray(np.linalg.inv(rows @ rows.swapaxes(1, 2) + fill[:, None] * np.eye(3)))
 
 
 class _Steps:
@@ -132,5 +134,5 @@ class _Steps:
 
 def _across(rows: Floats, vector: Floats) -> tuple[Floats, Floats]:
     """What is left of vectors across some rows, and how much of each row they hold."""
-    _, share = limited_by(rows, np.einsum("kij,kj->ki", rows, vector))
+    share = np.einsum("kij,kj->ki", pushes(rows), np.einsum("kij,kj->ki", rows, vector))
     return vector - np.einsum("kij,ki->kj", rows, share), share

@@ -84,6 +84,9 @@ class _Cut:
         self._label = edge
         self._labels = labels
         self._plane = int(lattice.edge_planes[edge])
+        # The planes on which the label is, and those before them.
+        here = (labels == edge).any(axis=(1, 2))
+        self._planes = np.flatnonzero(here | np.roll(here, -1)).tolist()
 
     def _sided(self, key: Key, cell: int) -> _Sided:
         kind, axis, i, _, _ = key
@@ -155,14 +158,17 @@ class _Cut:
         return nodes[0] if has[0] else middle, nodes[1] if has[1] else middle
 
     def _domain_edges(self) -> Iterator[tuple[int, _Index, list[tuple[int, _Index, int]]]]:
-        """Lattice edges between two facets: axis, index, faces (normal, index, cell)."""
+        """Lattice edges between two facets, near the label: axis, index, faces.
+
+        A face is told by its normal, its index, and the cell that it is of.
+        """
         planes, radii, heights = (n - 1 for n in self._lattice.nodes.shape[:3])
         planes += 1
-        for i, j, k in itertools.product(range(planes), (0, radii), (0, heights)):
+        for i, j, k in itertools.product(self._planes, (0, radii), (0, heights)):
             across, down = min(j, radii - 1), min(k, heights - 1)
             yield 0, (i, j, k), [(1, (i, j, down), i), (2, (i, across, k), i)]
         strips = self._lattice.strips
-        for i, j, k in itertools.product(range(planes), (0, radii), range(heights)):
+        for i, j, k in itertools.product(self._planes, (0, radii), range(heights)):
             if strips[min(j, 1), i] != strips[min(j, 1), i - 1]:
                 before = (i - 1) % planes
                 yield 2, (i, j, k), [(1, (before, j, k), before), (1, (i, j, k), i)]

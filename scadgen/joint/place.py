@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from scadgen.joint.curve import SiteCurve, distances
+from scadgen.joint.curve import SiteCurve, distances, slopes
 from scadgen.joint.lattice import Lattice
 from scadgen.joint.walls import Key
 from scadgen.solid.affine import Floats, Ints
@@ -65,13 +65,28 @@ def place(
     points
         ``(len(keys), 3) float``, in sides.
     """
-    points = np.empty((len(keys), 3))
+    start, basis = np.empty((len(keys), 3)), np.zeros((len(keys), 3, 3))
+    seen, size = np.zeros((len(keys), len(curves)), dtype=np.bool_), np.zeros(len(keys))
     kinds = [(key[0], key[1]) for key in keys]
     for kind in set(kinds):
         rows = [n for n, other in enumerate(kinds) if other == kind]
         index = np.array([keys[n][2:5] for n in rows])
-        points[rows] = _place_kind(lattice, curves, far, _axes(kind), index)
-    return points
+        axes = _axes(kind)
+        shifts = np.zeros((2 ** len(axes), 3), dtype=int)
+        shifts[:, list(axes)] = list(itertools.product((0, 1), repeat=len(axes)))
+        i, j, k = np.moveaxis(index[:, None] + shifts, -1, 0)
+        i %= len(lattice.planes)
+        corners, nearest = lattice.nodes[i, j, k], np.moveaxis(far[:, i, j, k], 0, -1)
+        if not axes:
+            start[rows] = corners[:, 0]
+            continue
+        start[rows] = _middle_of_crossings(shifts, corners, nearest)
+        seen[np.array(rows)[:, None], nearest.argmin(-1)] = True
+        size[rows] = np.linalg.norm(corners[:, -1] - corners[:, 0], axis=1)
+        basis[rows, : len(axes)] = _basis(corners, len(axes))
+    found = _meet(curves, seen, start, basis)
+    stray = np.linalg.norm(found - start, axis=1) > _STRAY * size
+    return np.where(stray[:, None], start, found)
 
 
 def _axes(kind: tuple[str, int]) -> tuple[int, ...]:
@@ -79,30 +94,6 @@ def _axes(kind: tuple[str, int]) -> tuple[int, ...]:
     name, axis = kind
     extent = {"node": (), "edge": (axis,), "cell": (0, 1, 2)}
     return extent.get(name) or (() if name == "node" else tuple({0, 1, 2} - {axis}))
-
-
-def _place_kind(
-    lattice: Lattice,
-    curves: Sequence[SiteCurve],
-    far: Floats,
-    axes: tuple[int, ...],
-    index: Ints,
-) -> Floats:
-    """Positions of all vertices that stand for features along the same axes."""
-    shifts = np.zeros((2 ** len(axes), 3), dtype=int)
-    shifts[:, list(axes)] = list(itertools.product((0, 1), repeat=len(axes)))
-    i, j, k = np.moveaxis(index[:, None] + shifts, -1, 0)
-    i %= len(lattice.planes)
-    corners, far = lattice.nodes[i, j, k], np.moveaxis(far[:, i, j, k], 0, -1)
-    if not axes:
-        return np.asarray(corners[:, 0])
-    start = _middle_of_crossings(shifts, corners, far)
-    seen = np.zeros((len(index), len(curves)), dtype=bool)
-    np.put_along_axis(seen, far.argmin(-1), values=True, axis=1)
-    size = np.linalg.norm(corners[:, -1] - corners[:, 0], axis=1)
-    found = _meet(curves, seen, start, _basis(corners, len(axes)))
-    stray = np.linalg.norm(found - start, axis=1) > _STRAY * size
-    return np.where(stray[:, None], start, found)
 
 
 def _middle_of_crossings(shifts: Ints, corners: Floats, far: Floats) -> Floats:
@@ -127,7 +118,7 @@ def _middle_of_crossings(shifts: Ints, corners: Floats, far: Floats) -> Floats:
 
 
 def _basis(corners: Floats, dimensions: int) -> Floats:
-    """Orthonormal directions in which each vertex may move, ``(m, dimensions, 3)``."""
+    """Orthonormal directions in which vertices may move, ``(m, dimensions, 3)``."""
     if dimensions == 3:
         return np.broadcast_to(np.eye(3), (len(corners), 3, 3))
     first = corners[:, -1] - corners[:, 0]
@@ -145,7 +136,7 @@ def _meet(
     """Points nearest the start, within the basis, equally far from all curves seen."""
     points = start.copy()
     reference = seen.argmax(axis=1)
-    moving = np.arange(len(start))
+    moving = np.flatnonzero(seen.any(axis=1))
     for _ in range(_STEPS):
         far, slope = _seen_distances(curves, points[moving], seen[moving])
         row, first = np.arange(len(moving)), reference[moving]
@@ -163,7 +154,6 @@ def _seen_distances(
 ) -> tuple[Floats, Floats]:
     """Distances from the curves seen, and their gradients; zero from others."""
     far, slope = np.zeros(seen.shape), np.zeros((*seen.shape, 3))
-    for n, curve in enumerate(curves):
-        rows = np.flatnonzero(seen[:, n])
-        far[rows, n], slope[rows, n] = curve.distance(points[rows])
+    row, which = np.nonzero(seen)
+    far[row, which], slope[row, which] = slopes(curves, points[row], which)
     return far, slope

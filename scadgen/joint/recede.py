@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array, csr_array
 
 from scadgen.errors import GeometryError
-from scadgen.joint.nearest import limited_by, nearest_points
+from scadgen.joint.nearest import nearest_points, pushes
 from scadgen.joint.surface import Surface
 from scadgen.joint.walls import Facet
 from scadgen.solid.affine import Floats, Ints
@@ -124,7 +124,11 @@ class _Limits:
         self._rows = np.where(has[..., None], -faces[which], 0.0)
         self._within = self._rows @ self._free
         self._need = has.astype(float)
+        # What limits each vertex, as rows that are zero where nothing does, and how much each of
+        # them pushes for what it needs.
         self._limiting = np.full((len(points), 3), -1)
+        self._limits = np.zeros((len(points), 3, 3))
+        self._push = np.zeros((len(points), 3, 3))
 
     def nearest(self, wish: Floats) -> Floats:
         """The displacements nearest to what is wished for.
@@ -134,7 +138,9 @@ class _Limits:
         """
         start = self._start + np.einsum("vij,vj->vi", self._free, wish - self._start)
         need = self._need - np.einsum("vwi,vi->vw", self._rows, start)
-        found, good = self._limited(need)
+        found, weights = self._limited(need, slice(None))
+        left = need - np.einsum("vwi,vi->vw", self._within, found)
+        good = (weights >= 0).all(axis=1) & (left.max(axis=1, initial=0.0) < _EXACT)
         if (wrong := np.flatnonzero(~good)).size:
             limiting, exists = nearest_points(self._within[wrong], need[wrong])
             if not exists.all():
@@ -145,19 +151,19 @@ class _Limits:
                 )
                 raise GeometryError(msg)
             self._limiting[wrong] = limiting
-            found[wrong] = self._limited(need)[0][wrong]
+            rows = self._within[wrong[:, None], limiting]
+            self._limits[wrong] = np.where(limiting[..., None] < 0, 0.0, rows)
+            self._push[wrong] = pushes(self._limits[wrong])
+            found[wrong], _ = self._limited(need[wrong], wrong)
         return np.asarray(start + found)
 
-    def _limited(self, need: Floats) -> tuple[Floats, NDArray[np.bool_]]:
-        """By how much each vertex moves if it is limited as it was, and whether it is."""
-        row, unused = np.arange(len(need))[:, None], self._limiting < 0
-        rows = np.where(unused[..., None], 0.0, self._within[row, self._limiting])
-        wanted = np.where(unused, 0.0, need[row, self._limiting])
-        found, weights = limited_by(rows, wanted)
-        left = need - np.einsum("vwi,vi->vw", self._within, found)
-        return found, np.asarray(
-            (weights >= 0).all(axis=1) & (left.max(axis=1, initial=0.0) < _EXACT)
-        )
+    def _limited(self, need: Floats, some: Ints | slice) -> tuple[Floats, Floats]:
+        """By how much some vertices move if they are limited as they were, and what pushes them."""
+        limiting = self._limiting[some]
+        wanted = np.take_along_axis(need, limiting, axis=1)
+        wanted[limiting < 0] = 0.0
+        weights = np.einsum("vij,vj->vi", self._push[some], wanted)
+        return np.einsum("vij,vi->vj", self._limits[some], weights), weights
 
 
 def _unit(normals: Floats) -> Floats:

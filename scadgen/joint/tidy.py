@@ -131,12 +131,16 @@ def _short_sides(
     Of two sides of the same length at one vertex neither is merged: a half turn of the joint
     swaps them, and whichever were taken, the walls would lose that symmetry.
     """
-    sides = {
-        (a, b) if a < b else (b, a)
-        for wedge in walls
-        for a, b in zip(wedge.corners, wedge.corners[1:] + wedge.corners[:1], strict=True)
-    }
-    length = {(a, b): round(float(np.linalg.norm(position[a] - position[b])), 9) for a, b in sides}
+    sides = list(
+        {
+            (a, b) if a < b else (b, a)
+            for wedge in walls
+            for a, b in zip(wedge.corners, wedge.corners[1:] + wedge.corners[:1], strict=True)
+        }
+    )
+    ends = np.array([(position[a], position[b]) for a, b in sides]).reshape(-1, 2, 3)
+    lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).round(9)
+    length = dict(zip(sides, lengths.tolist(), strict=True))
     at_vertex = Counter((key, length[side]) for side in sides for key in side)
     short = [
         side
