@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import shapely
 from numpy.typing import NDArray
@@ -9,7 +11,7 @@ from numpy.typing import NDArray
 from scadgen.errors import InputError
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["TOUCH", "check_planar", "crossings", "more", "touches", "where"]
+__all__ = ["TOUCH", "check_planar", "corner", "crossings", "more", "touches", "where"]
 
 #: A vertex nearer than this to an edge that is not its own lies on it, in mm: a thousand
 #: times the last decimal kept, a thousandth of what any printer resolves.
@@ -19,6 +21,11 @@ TOUCH = 1e-6
 def where(point: Floats) -> str:
     """A point as text: ``(12.5, 40)``, in mm."""
     return f"({point[0] + 0.0:.6g}, {point[1] + 0.0:.6g})"
+
+
+def corner(vertex: int, point: Floats, gaps: Sequence[float]) -> str:
+    """A vertex and the angles between its edges, in degrees, as text."""
+    return f"vertex {vertex} at {where(point)}, angles {', '.join(f'{gap:.4g}' for gap in gaps)}"
 
 
 def more(count: int) -> str:

@@ -22,7 +22,7 @@ from scadgen.frame.graph import Frame, make_frame
 from scadgen.frame.joints import least_scale
 from scadgen.frame.kinds import Kinds, choose_kinds
 from scadgen.frame.placement import Placement
-from scadgen.frame.planarity import where
+from scadgen.frame.planarity import corner
 from scadgen.frame.sameness import Sameness, joint_name, sameness
 from scadgen.joint.weave import Weave, any_joint
 from scadgen.kit.apart import Apart
@@ -178,8 +178,8 @@ def _weave(frame: Frame, kinds: Kinds, number: int) -> Weave:
 def _where(frame: Frame, kinds: Kinds, number: int) -> str:
     """Where the first joint of a kind stands, and its angles."""
     vertex = int(np.flatnonzero(kinds.kind_of == number)[0])
-    angles = ", ".join(f"{angle:.4g}" for angle in np.degrees(kinds.shape(number).gaps))
-    return f"vertex {vertex} at {where(frame.vertices[vertex])}, angles {angles}"
+    gaps = np.degrees(kinds.shape(number).gaps).tolist()
+    return corner(vertex, frame.vertices[vertex], gaps)
 
 
 def _wanted(request: Request, frame: Frame, kinds: Kinds, number: int, weave: Weave) -> Wanted:

@@ -7,10 +7,11 @@ chosen anew without it.
 
 from __future__ import annotations
 
+import math
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ import numpy as np
 from scadgen.check.proof import proved
 from scadgen.errors import JointError
 from scadgen.frame.keys import Refused
-from scadgen.frame.planarity import where
+from scadgen.frame.planarity import corner
 from scadgen.kit.build import Request, build
 from scadgen.kit.model import Joint, Kit
 from scadgen.plan.standing import stand
@@ -60,48 +61,72 @@ def proved_kit(
     with _kept(means or Means()) as kept:
         if request.graph is None:
             return proved(build(request, kept, done), kept, say)
-        return _keyed(request, kept, done, say)
+        return _Keyed(kept, done, say).held(request)
 
 
-def _keyed(
-    request: Request, means: Means, done: Callable[[int, int], None], say: Callable[[str], None]
-) -> Kit:
-    """The kit of a graph: first its joints are to be proved, then the frame is to hold."""
-    refused: list[Refused] = []
-    parting: list[Refused] = []
-    pegs, settled = 0, False
-    while True:
-        kit = build(replace(request, refused=(*refused, *parting)), means, done)
-        if parting and _pegs(kit) > pegs:
-            parting, settled = [], True
-            continue
-        try:
-            found = proved(kit, means, say)
-        except JointError as error:
-            joint = next(joint for joint in kit.joints if joint.name == error.joint)
-            say(f"{joint.title}: {error.fault}; another key there")
-            if not _is_among(refused, joint):
-                refused.append(_refused(joint))
-            elif parting:
-                parting, settled = [], True  # rather a frame that may come apart than none
-            else:
-                raise _nowhere(kit, joint, error) from error
-            continue
-        names = () if settled else {site.kind.name for site in parting_joints(stand(found))}
-        joints = [joint for joint in kit.joints if joint.name in names]
-        # Several keys at a joint are there for a regular frame: alike, they make fewer parts.
-        loose = [
-            joint for joint in joints if len(joint.keys) == 1 and not _is_among(parting, joint)
-        ]
-        if not loose:
-            return found
-        say(f"{loose[0].title}: the frame may come apart there; another key there")
-        pegs = pegs if parting else _pegs(kit)
-        parting += map(_refused, loose)
+@dataclass(frozen=True, slots=True)
+class _Keyed:
+    """Who makes kits of frames, and who is told."""
+
+    means: Means
+    done: Callable[[int, int], None]
+    say: Callable[[str], None]
+
+    def proved(self, request: Request, most: float = math.inf) -> Kit:
+        """A kit of no more than so many pegs whose joints are all proved.
+
+        Raises
+        ------
+        JointError
+            A joint is refused though it was to be kept out.
+        _MorePegsError
+            It takes more pegs.
+        """
+        while True:
+            kit = build(request, self.means, self.done)
+            if _pegs(kit) > most:
+                raise _MorePegsError
+            try:
+                return proved(kit, self.means, self.say)
+            except JointError as error:
+                joint = next(joint for joint in kit.joints if joint.name == error.joint)
+                if _is_among(request.refused, joint):
+                    raise _nowhere(kit, joint, error) from error
+                self.say(f"{joint.title}: {error.fault}; another key there")
+                request = replace(request, refused=(*request.refused, _refused(joint)))
+
+    def held(self, request: Request) -> Kit:
+        """A proved kit whose frame holds besides, if one is found that takes no more pegs."""
+        kit = first = self.proved(request)
+        while loose := _loose(kit):
+            self.say(f"{loose[0].title}: the frame may come apart there; another key there")
+            refused = (*kit.refused, *map(_refused, loose))
+            try:
+                kit = self.proved(replace(request, refused=refused), _pegs(first))
+            except (JointError, _MorePegsError):
+                return first  # rather a frame that may come apart than none, or many pegs
+        return kit
+
+
+class _MorePegsError(Exception):
+    """What is only preferred would take more pegs."""
+
+
+def _loose(kit: Kit) -> list[Joint]:
+    """The joints at which a frame may come apart, but where another key may help.
+
+    Several keys at a joint are there for a regular frame: alike, they make fewer parts.
+    """
+    names = {site.kind.name for site in parting_joints(stand(kit))}
+    return [
+        joint
+        for joint in kit.joints
+        if joint.name in names and len(joint.keys) == 1 and not _is_among(kit.refused, joint)
+    ]
 
 
 def _pegs(kit: Kit) -> int:
-    """How many pegs a kit takes: what is only preferred is not worth more of them."""
+    """How many pegs a kit takes."""
     return sum(place.role == "peg" for place in kit.placements)
 
 
@@ -126,17 +151,13 @@ def _kept(means: Means) -> Iterator[Means]:
 
 def _nowhere(kit: Kit, joint: Joint, error: JointError) -> JointError:
     """The error that tells where such a joint stands, and what would help."""
-    graph = kit.graph
-    if graph is None:
-        return error
     half = joint.pieces[0].part
-    at = next(np.array(place.at) for place in kit.placements if place.part == half)
-    off = np.linalg.norm(graph.vertices - at * kit.values["edge_length"], axis=1)
-    vertex = int(off.argmin())
-    angles = ", ".join(f"{gap:.4g}" for gap in np.diff([*joint.turns, 360.0]))
+    places = list(dict.fromkeys(p.at for p in kit.placements if p.role == "half_a"))
+    at = next(place.at for place in kit.placements if place.part == half)
+    point = kit.values["edge_length"] * np.array(at)
+    gaps = np.diff([*joint.turns, 360.0]).tolist()
     msg = (
-        f"vertex {vertex} at {where(graph.vertices[vertex])}, angles {angles}: {error.fault}; "
-        "with other keys it is refused as well; other angles help, or --unchecked makes the kit "
-        "all the same"
+        f"{corner(places.index(at), point, gaps)}: {error.fault}; with other keys it is refused as "
+        "well; other angles help, or --unchecked makes the kit all the same"
     )
     return JointError(msg, error.joint, error.fault)
