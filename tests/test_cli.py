@@ -290,7 +290,7 @@ def test_a_process_of_its_own_does_the_same(folder, tmp_path):
     said = shell("kit", "heptagonal", cwd=tmp_path)
     assert said.returncode == 2
     assert said.stdout == b""
-    assert said.stderr.startswith(b"scadgen: frame 'heptagonal': must be a file that ends in ")
+    assert said.stderr.startswith(b"scadgen: frame 'heptagonal': must be a name that ")
     assert said.stderr.count(b"\n") == 1
     assert files(tmp_path) == sorted(
         ["half.stl", "hexagonal", *(f"hexagonal/{name}" for name in files(folder))]
@@ -325,8 +325,8 @@ WEAVES = {
 }
 
 BAD_KITS = [
-    ("heptagonal", (), "frame 'heptagonal': must be a file that ends in .dxf, "),
-    ("", (), "frame '': must be a file that ends in .dxf, "),
+    ("hexagonl", (), "shows, such as hexagonal, or a file that ends in .dxf, "),
+    ("", (), "frame '': must be a name that scadgen frame --list shows, or a file that ends in "),
     ("ladder", ("--key", "fixed"), "key = 'fixed': must be loose, so that each joint"),
     ("ladder", ("--rim", "round"), "rim = 'round': must be one of caps, open"),
     ("ladder", ("--weave", "4-loose"), "weave 4-loose: each joint of this frame has one of its"),

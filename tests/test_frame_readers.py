@@ -96,6 +96,31 @@ def test_json_that_is_no_frame_is_refused(tmp_path, change, said):
     assert re.search(said, refusal(path))
 
 
+def test_listed_edges_are_repaired_where_that_is_wanted(tmp_path):
+    # Two bars that cross, one of them twice; an end beside another; a vertex that nothing uses.
+    vertices = [[0, 0], [10, 0], [5, -5], [5, 5], [10, 0.004], [20, 0], [7, 7]]
+    edges = [[0, 1], [2, 3], [1, 0], [4, 5], [3, 3]]
+    path = written(tmp_path, "rough.json", {"vertices": vertices, "edges": edges})
+    assert refusal(path).endswith(
+        "goes from vertex 3 at (5, 5) to itself; --repair mends what it can"
+    )
+    found = read(path, Reading(repair=True))
+    assert found.frame.vertices.tolist() == [[5, -5], [0, 0], [5, 0], [10, 0], [20, 0], [5, 5]]
+    assert len(found.frame.edges) == 5
+    said = "\n".join(found.notes)
+    for what in (
+        "without an edge left out: 1",
+        "crossing split at (5, 0)",
+        "without length",
+        "merged",
+    ):
+        assert what in said
+    assert "cross at (5, 0)" in refusal(path, Reading(repair=True, split=False))
+    bars = written(tmp_path, "a.obj", "v 0 0 0\nv 9 0 0\nv 5 -5 0\nv 5 5 0\nl 1 2\nl 3 4\n")
+    assert "--repair mends what it can" in refusal(bars)
+    assert len(read(bars, Reading(repair=True)).frame.edges) == 4
+
+
 @pytest.mark.parametrize(
     ("content", "said"),
     [

@@ -13,7 +13,7 @@ from typing import Any
 
 import click
 
-__all__ = ["Bar", "progress", "status", "table", "timeout_option"]
+__all__ = ["Bar", "counted", "progress", "status", "table", "timeout_option"]
 
 #: Seconds from one line of a log to the next, and to the first.
 _EVERY = 5.0
@@ -165,6 +165,11 @@ def _logged(text: str) -> Iterator[Bar]:
     finally:
         over.set()
         teller.join()
+
+
+def counted(number: int, what: str) -> str:
+    """So many of something: ``1 edge``, ``2 edges``."""
+    return f"{number} {what}{'' if number == 1 else 's'}"
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> None:

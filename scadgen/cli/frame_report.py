@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from scadgen.cli.console import table
+from scadgen.cli.console import counted, table
 
 if TYPE_CHECKING:
     from scadgen.check.frame import Build
@@ -124,7 +124,7 @@ def show(said: dict[str, Any]) -> None:
     (left, low), (right, high) = said["bounds"]
     parts = f" in {said['parts']} parts" if said["parts"] > 1 else ""
     click.echo(
-        f"{said['name']}: {said['vertices']} vertices, {said['edges']} edges{parts}, "
+        f"{said['name']}: {said['vertices']} vertices, {counted(said['edges'], 'edge')}{parts}, "
         f"{right - left:.6g} x {high - low:.6g} mm from ({left:.6g}, {low:.6g})"
     )
     _lines(said["notes"])

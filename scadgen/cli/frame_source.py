@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import replace
+from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -49,12 +50,22 @@ _READING: dict[str, tuple[type, str | None, str, tuple[str, ...] | None]] = {
         (*_DRAWINGS, ".obj", ".off"),
     ),
     "flatten": (float, "MM", "segments are this near to their curve.  [default: 0.05]", _DRAWINGS),
+    "repair": (
+        bool,
+        None,
+        "merge ends, split crossings and drop duplicates, as drawings always have it.",
+        (".json", ".obj", ".off"),
+    ),
     "no_split": (bool, None, "refuse segments that cross instead of splitting them.", _DRAWINGS),
     "skip_unknown": (bool, None, "leave out what cannot be part of a frame.", (*_DRAWINGS, ".obj")),
     "components": (bool, None, "allow several parts that are not connected.", None),
     "shortest": (float, "MM", "refuse edges shorter than this.", None),
     "most": (int, "N", "allow this many vertices, segments or edges.  [default: 100000]", None),
 }
+
+
+#: Options that kinds of files have only with --repair, if at all.
+_OF_REPAIR = ("tolerance", "no_split")
 
 
 def source_options(
@@ -149,12 +160,18 @@ def _load(name: str, given: dict[str, Any]) -> Read:
     path = Path(name)
     kind = path.suffix.lower()
     if kind not in READERS:
+        near = get_close_matches(name, [*NAMES, *ALIASES], n=1)
+        meant = f", such as {near[0]}" if near else ""
         msg = (
-            f"frame {name!r}: must be a file that ends in {', '.join(READERS)}, or one of "
-            f"{', '.join(NAMES)}"
+            f"frame {name!r}: must be a name that scadgen frame --list shows{meant}, or a file "
+            f"that ends in {', '.join(READERS)}"
         )
         raise InputError(msg)
-    taken = [n for n, (*_, kinds) in _READING.items() if kinds is None or kind in kinds]
+    taken = [
+        one
+        for one, (*_, kinds) in _READING.items()
+        if kinds is None or kind in kinds or (one in _OF_REPAIR and "repair" in given)
+    ]
     _check_options(name, given, taken)
     if given.pop("no_split", False):
         given["split"] = False

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from scadgen.cli.console import Bar, progress
+from scadgen.cli.console import Bar, counted, progress
 from scadgen.cli.frame_source import is_grid, load_frame, source_options
 from scadgen.errors import InputError
 
@@ -205,7 +205,7 @@ def _say(made: Kit, folder: Path, notes: Sequence[str]) -> None:
     size = (
         f"{made.rows} x {made.columns} cells"
         if made.graph is None
-        else f"{len(made.graph.edges)} edges and {len(made.graph.vertices)} joints"
+        else f"{counted(len(made.graph.edges), 'edge')} and {len(made.graph.vertices)} joints"
     )
     click.echo(f"{click.format_filename(folder)}: {sum(bill.values())} pieces to print for {size}")
     for part, number in bill.items():

@@ -14,7 +14,7 @@ from scadgen.errors import InputError, InvariantError
 from scadgen.frame.planarity import check_planar, where
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["LARGEST", "Ends", "Frame", "make_frame"]
+__all__ = ["LARGEST", "Ends", "Frame", "make_frame", "vertex_pairs"]
 
 #: Coordinates go up to this, in mm: a kilometre, where 9 decimals are still kept.
 LARGEST = 1e6
@@ -176,7 +176,8 @@ def make_frame(name: str, vertices: ArrayLike, edges: ArrayLike) -> Frame:
         of the input.
     """
     points = _points(vertices)
-    pairs = _pairs(edges, points)
+    pairs = vertex_pairs(edges, len(points))
+    _check_pairs(pairs, points)
     check_planar(points, pairs)
     order = np.lexsort((points[:, 0], points[:, 1]))
     pairs = np.sort(np.argsort(order)[pairs], axis=1)
@@ -195,7 +196,14 @@ def _points(vertices: ArrayLike) -> Floats:
     return np.asarray(points.round(_DECIMALS) + 0.0)
 
 
-def _pairs(edges: ArrayLike, points: Floats) -> Ints:
+def vertex_pairs(edges: ArrayLike, count: int) -> Ints:
+    """Edges between so many vertices, ``(m, 2) int``.
+
+    Raises
+    ------
+    InputError
+        Another shape, none, or a vertex that is not there.
+    """
     given = np.asarray(edges)
     if given.ndim != 2 or given.shape[1] != 2 or not len(given):
         msg = f"edges of shape {given.shape}: must be (m, 2), two vertices each, at least one edge"
@@ -204,10 +212,14 @@ def _pairs(edges: ArrayLike, points: Floats) -> Ints:
         msg = f"edges of type {given.dtype}: must be whole numbers"
         raise InputError(msg)
     pairs = given.astype(np.int64)
-    bad = np.flatnonzero(((pairs < 0) | (pairs >= len(points))).any(axis=1))
+    bad = np.flatnonzero(((pairs < 0) | (pairs >= count)).any(axis=1))
     if len(bad):
-        msg = f"edge {bad[0]} = {pairs[bad[0]].tolist()}: vertices go from 0 to {len(points) - 1}"
+        msg = f"edge {bad[0]} = {pairs[bad[0]].tolist()}: vertices go from 0 to {count - 1}"
         raise InputError(msg)
+    return pairs
+
+
+def _check_pairs(pairs: Ints, points: Floats) -> None:
     loops = np.flatnonzero(pairs[:, 0] == pairs[:, 1])
     if len(loops):
         at = where(points[pairs[loops[0], 0]])
@@ -224,4 +236,3 @@ def _pairs(edges: ArrayLike, points: Floats) -> Ints:
     if len(alone):
         msg = f"vertex {alone[0]} at {where(points[alone[0]])} has no edge"
         raise InputError(msg)
-    return pairs

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from scadgen.errors import InputError
-from scadgen.frame.graph import Frame, make_frame
+from scadgen.frame.graph import Frame, make_frame, vertex_pairs
 from scadgen.frame.planarity import more, where
 from scadgen.frame.repair import MOST_SEGMENTS, TOLERANCE, repair
 from scadgen.solid.affine import Floats
@@ -36,12 +36,15 @@ class Reading:
     scale
         Millimetres per unit, instead of what the file says.
     tolerance
-        Ends nearer than this are one, in mm; drawings only.  Meshes may be this far from
-        plane.
+        Ends nearer than this are one, in mm, where they are repaired.  Meshes may be this far
+        from plane.
     flatten
         Curves become segments that are at most this far off, in mm.
     split
-        Whether segments that cross get a vertex there; drawings only.
+        Whether segments that cross get a vertex there, where they are repaired.
+    repair
+        Whether the edges that a file lists by their vertices are repaired, as drawings always
+        are.
     skip_unknown
         Whether to leave out what cannot be part of a frame.
     components
@@ -56,6 +59,7 @@ class Reading:
     tolerance: float = TOLERANCE
     flatten: float = 0.05
     split: bool = True
+    repair: bool = False
     skip_unknown: bool = False
     components: bool = False
     shortest: float = 0.0
@@ -114,14 +118,24 @@ def load(path: Path, reading: Reading) -> bytes:
 
 
 def from_graph(name: str, vertices: ArrayLike, edges: ArrayLike, reading: Reading) -> Read:
-    """A frame whose vertices and edges the file lists; nothing is repaired.
+    """A frame whose vertices and edges the file lists.
 
     Raises
     ------
     InputError
         It is no frame, too large, in several parts, or has edges that are too short.
     """
-    frame = make_frame(name, vertices, edges)
+    points = np.asarray(vertices, dtype=float)
+    pairs = vertex_pairs(edges, len(points))
+    if reading.repair:
+        alone = len(points) - len(np.unique(pairs))
+        notes = (f"vertices without an edge left out: {alone}",) if alone else ()
+        return from_segments(name, [points[pairs]], reading, notes)
+    try:
+        frame = make_frame(name, points, pairs)
+    except InputError as error:
+        msg = f"{error}; --repair mends what it can"
+        raise InputError(msg) from None
     _check(frame, reading)
     return Read(frame)
 
