@@ -118,6 +118,8 @@ def element_count(frame, kinds):
 #:   hexagonal: a slot meets another one at each of three directions.
 #:   3.6.3.6: of four slots each meets the next one, around.
 #:   ring: every edge goes from a joint's first slot to the next one's second.
+#:   ladder, strip: a half turn carries one rail to the other, so that there is one element for
+#:     both rails, and one for the rungs; of a strip's slants one for each direction.
 TILINGS = {
     "hexagonal": (1, 1, 3),
     "square": (1, 1, 2),
@@ -133,6 +135,8 @@ TILINGS = {
     "3.3.3.4.4": (2, 1, 4),
     "3.3.3.3.6": (2, 1, 3),
     "3.4.6.4": (1, 2, 6),
+    "ladder": (1, 1, 2),
+    "strip": (1, 1, 3),
 }
 
 
@@ -144,6 +148,44 @@ def test_a_tiling_has_the_keys_and_parts_reasoned_out_by_hand(name):
     assert {len(kind.keys) for kind in kinds.kinds} == {keys}
     assert len(kinds.kinds) == joints
     assert element_count(frame, kinds) == elements
+
+
+#: The duals by cell, which shifts repeat: how many joints of how many edges there are, each kind
+#: of face of the tiling making one kind of joint; and how many keys each has.
+#:
+#: Keys.  Of a cell's edges a forest leaves as many whole as it has joints.  All others have a key,
+#: and every joint has one.
+#:
+#: Elements.  Joints of one kind that shifts do not carry to each other are turned otherwise, and
+#: so may be their keys: one for each edge of the cell is enough, and needed where each edge takes a
+#: slot of its own at the joint of the most edges, or a half turn pairs them there.
+DUALS = {
+    "V3.6.3.6": ({3: 2, 6: 1}, {3: 1, 6: 1}),
+    "V3.4.6.4": ({3: 2, 4: 3, 6: 1}, {3: 1, 4: 1, 6: 1}),
+    "V4.8.8": ({4: 1, 8: 1}, {4: 3, 8: 1}),
+    "V3.3.4.3.4": ({3: 4, 4: 2}, {3: 1, 4: 1}),
+    "V3.3.3.4.4": ({3: 2, 4: 1}, {3: 1, 4: 1}),
+    "V3.12.12": ({3: 2, 12: 1}, {3: 1, 12: 4}),
+}
+
+#: Those with edges that do not lead to the joint of the most edges.
+FARTHER = ("V3.4.6.4", "V3.3.4.3.4")
+
+
+@pytest.mark.parametrize("name", DUALS)
+def test_a_dual_has_the_keys_and_parts_reasoned_out_by_hand(name):
+    joints, keys = DUALS[name]
+    edges = sum(size * count for size, count in joints.items()) // 2
+    vertices = sum(joints.values())
+    assert sum(keys[size] * joints[size] for size in joints) == max(vertices, edges - vertices)
+    frame = named(name)
+    kinds = kinds_of(frame)
+    assert {
+        len(kinds.shape(n).directions): len(kind.keys) for n, kind in enumerate(kinds.kinds)
+    } == keys
+    assert len(kinds.kinds) == len(joints)
+    found = element_count(frame, kinds)
+    assert found <= edges if name in FARTHER else found == edges
 
 
 def test_without_caps_a_corner_is_a_joint_of_its_own():
