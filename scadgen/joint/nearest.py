@@ -66,7 +66,11 @@ def pushes(rows: Floats) -> Floats:
         of the rows is x.
     """
     fill = np.where(rows.any(axis=2), 0.0, 1.0)
-    return np.asarray(np.linalg.inv(rows @ rows.swapaxes(1, 2) + fill[:, None] * np.eye(3)))
+    products = rows @ rows.swapaxes(1, 2) + fill[:, None] * np.eye(3)
+    try:
+        return np.asarray(np.linalg.inv(products))
+    except np.linalg.LinAlgError:  # rows that depend but for rounding share what they push
+        return np.asarray(np.linalg.pinv(products, hermitian=True))
 
 
 class _Steps:
@@ -94,7 +98,7 @@ class _Steps:
         wanted, limiting = self._wanted[now], self.limiting[now]
         row = self._rows[now, wanted]
         across, share = _across(self._rows[now[:, None], limiting], row)
-        size = np.einsum("ij,ij->i", across, row)
+        size = np.einsum("ij,ij->i", across, across)
         short = self._need[now, wanted] - np.einsum("ij,ij->i", row, self._x[now])
         free = size > _DEPENDENT
         full = np.where(free, short / np.where(free, size, 1.0), np.inf)
