@@ -281,6 +281,8 @@ def test_check_finds_an_edited_kit_bad(run, folder):
     assert (code, err) == (1, "")
     bad = {result["check"] for result in json.loads(out) if not result["good"]}
     assert {"the parameters make this kit", "connectors make up the domain"} <= bad
+    last = run("check", folder)[1].splitlines()[-1]
+    assert re.fullmatch(rf"{folder}: \d+ of \d+ checks are good; FAILED: .*, \.\.\.", last)
 
 
 def test_a_process_of_its_own_does_the_same(folder, tmp_path):

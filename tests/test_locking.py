@@ -95,7 +95,7 @@ def test_play_is_what_pieces_really_have():
     *_, result = of_joint(joint_locks, kit("hexagonal", detail="standard"))
     assert result.check == "play measured on the pieces"
     assert result.good
-    first, own = (float(x) for x in re.findall(r"([\d.]+) mm a mm at [\d.]+ mm of", result.figure))
-    by_faces = float(result.figure.partition("; ")[2].split()[0])
+    first, own = (float(x) for x in re.findall(r"([\d.]+) at [\d.]+ mm", result.figure))
+    by_faces = float(result.figure.split()[-4])
     assert first == pytest.approx(by_faces, abs=0.1)
     assert own == pytest.approx(by_faces, rel=0.1)

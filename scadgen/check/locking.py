@@ -195,13 +195,11 @@ def _measured_play(
         for gap in (small, kit.values["clearance"])
         if gap > 0
     }
-    found = ", ".join(
-        f"{share * travel:.1f} mm a mm at {gap:g} mm of clearance" for gap, share in shares.items()
-    )
+    found = ", ".join(f"{share * travel:.1f} at {gap:g} mm" for gap, share in shares.items())
     # At the kit's own clearance it is told but not bounded: first order promises nothing there,
     # and a motion that is straight there may end where one that follows bent walls goes on.
     good = abs(shares[small] - 1) < _FIRST_ORDER
-    return Result(name, good, f"{found}; {travel:.1f} mm a mm by their faces", bound)
+    return Result(name, good, f"{found}; by their faces {travel:.1f} mm a mm", bound)
 
 
 def _loosest(

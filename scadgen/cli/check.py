@@ -15,6 +15,9 @@ __all__ = ["check"]
 #: About as many results as a group of checks has.
 _RESULTS = 10
 
+#: Checks that failed which the last line names.
+_NAMED = 3
+
 
 @click.command(short_help="Check everything about a kit.")
 @click.argument("folder", metavar="KIT", type=click.Path(path_type=Path))
@@ -46,7 +49,9 @@ def check(folder: Path, timeout: float, as_json: bool) -> int:  # noqa: FBT001
     else:
         rows = [("ok" if r.good else "FAILED", r.check, r.figure, r.bound) for r in results]
         table(("", "check", "found", "must be"), rows)
-        bad = sum(not r.good for r in results)
-        name = click.format_filename(folder)
-        click.echo(f"{name}: {len(results) - bad} of {len(results)} checks are good")
+        bad = [result.check for result in results if not result.good]
+        said = f"{len(results) - len(bad)} of {len(results)} checks are good"
+        if bad:
+            said += f"; FAILED: {', '.join(bad[:_NAMED])}{', ...' if len(bad) > _NAMED else ''}"
+        click.echo(f"{click.format_filename(folder)}: {said}")
     return 0 if all(result.good for result in results) else 1
