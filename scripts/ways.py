@@ -21,7 +21,7 @@ from scadgen.joint.joint import DETAILS
 from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import build_joint
 from scadgen.kit.model import Way
-from scadgen.kit.store import way_entry
+from scadgen.kit.ways import way_entry
 
 FILE = Path(__file__).parents[1] / "scadgen" / "check" / "ways.json"
 

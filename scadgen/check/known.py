@@ -11,7 +11,7 @@ from importlib import resources
 from typing import Any
 
 from scadgen.kit.model import Joint, Kit, Way
-from scadgen.kit.store import read_way
+from scadgen.kit.ways import read_way
 
 __all__ = ["key_of", "known_ways"]
 

@@ -12,7 +12,7 @@ from scadgen.check.result import Result
 from scadgen.check.ways import come_apart
 from scadgen.errors import JointError
 from scadgen.kit.model import Joint, Kit, Way
-from scadgen.kit.store import read_way, way_entry
+from scadgen.kit.ways import read_way, way_entry
 from scadgen.solid.affine import AffineSolid
 from scadgen.work.cache import Entry
 from scadgen.work.crew import ALONE

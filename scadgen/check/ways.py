@@ -26,7 +26,7 @@ from scadgen.interlock.escape import escape
 from scadgen.interlock.path import Path, narrowest
 from scadgen.interlock.widen import widened
 from scadgen.kit.model import Joint, Kit, Way
-from scadgen.kit.store import WAY_DECIMALS
+from scadgen.kit.ways import WAY_DECIMALS
 
 __all__ = ["LEAST", "LOOK", "PATIENCE", "come_apart"]
 

@@ -19,33 +19,20 @@ from scadgen import __version__
 from scadgen.errors import InputError, InvariantError, KitError
 from scadgen.frame.graph import make_frame
 from scadgen.frame.keys import Refused
-from scadgen.frame.layout import LAYOUTS, bill, joint
-from scadgen.frame.placement import PARTS, Placement
-from scadgen.interlock.path import Path
+from scadgen.frame.layout import LAYOUTS, bill
+from scadgen.frame.placement import Placement
 from scadgen.kit.bill import as_json, with_bill
-from scadgen.kit.model import Joint, Kit, Way
+from scadgen.kit.model import Joint, Kit
 from scadgen.kit.ranges import check_values
-from scadgen.kit.request import VALENCE
+from scadgen.kit.sense import check_sense
+from scadgen.kit.ways import read_way, way_entry
 from scadgen.solid.affine import PARAMETERS, AffineSolid, Linear, Range
-from scadgen.solid.mesh import edge_faults, volume
+from scadgen.solid.mesh import edge_faults
 
-__all__ = [
-    "FORMAT",
-    "VERSION",
-    "WAY_DECIMALS",
-    "dumps",
-    "load",
-    "loads",
-    "read_way",
-    "summary",
-    "way_entry",
-]
+__all__ = ["FORMAT", "VERSION", "dumps", "load", "loads", "summary"]
 
 FORMAT = "scadgen-kit"
 VERSION = 2
-
-#: Decimals of a way's numbers, in sides and radians.
-WAY_DECIMALS = 6
 
 
 def dumps(kit: Kit) -> str:
@@ -122,32 +109,6 @@ def _placement(p: Placement) -> dict[str, Any]:
     return {"part": p.part, "at": list(p.at), "turn": p.turn, "flip": p.flip, "role": p.role}
 
 
-def way_entry(way: Way) -> dict[str, Any]:
-    """A way as JSON values, to a millionth of a side."""
-    return {
-        "name": way.name,
-        "moving": list(way.moving),
-        "middle": (np.round(way.path.middle, WAY_DECIMALS) + 0.0).tolist(),
-        "steps": (np.round(way.path.steps(), WAY_DECIMALS) + 0.0).tolist(),
-    }
-
-
-def read_way(entry: Mapping[str, Any]) -> Way:
-    """A way from JSON values.
-
-    Raises
-    ------
-    ValueError
-        Its numbers are not a motion.
-    """
-    steps, middle = (np.array(entry[name], dtype=np.float64) for name in ("steps", "middle"))
-    finite = np.isfinite(steps).all() and np.isfinite(middle).all()
-    if steps.ndim != 2 or steps.shape[1] != 6 or middle.shape != (3,) or not finite:
-        msg = f"way {entry['name']!r}: not a list of six numbers each"
-        raise ValueError(msg)
-    return Way(entry["name"], tuple(entry["moving"]), Path.through(steps, middle))
-
-
 def _linear(linear: Linear) -> dict[str, Any]:
     return {"terms": dict(linear.terms), "constant": linear.constant}
 
@@ -204,78 +165,13 @@ def loads(text: str) -> Kit:
         if missing := {*kit.values} - {r.parameter for r in kit.ranges}:
             _refuse(f"no range for {', '.join(sorted(missing))}")
         check_values(kit.ranges, kit.values)
-        _check_sense(kit, document)
+        check_sense(kit, document)
         # Kits of earlier scadgens have none.
         if "bill_of_materials" in document:
             kit = with_bill(kit, document["bill_of_materials"])
     except (InputError, InvariantError, ValueError, KeyError, TypeError, OverflowError) as error:
         _refuse(str(error))
     return kit
-
-
-def _check_sense(kit: Kit, document: dict[str, Any]) -> None:
-    """Refuse a kit whose tables and numbers do not belong together.
-
-    Raises
-    ------
-    ValueError
-        They do not: says which.
-    """
-    if document["bill"] != summary(kit)["bill"]:
-        msg = "the bill is not the frame's"
-        raise ValueError(msg)
-    if document["proved"] != kit.proved:
-        msg = "it says that it is proved, or not, and the verdicts say otherwise"
-        raise ValueError(msg)
-    for one in kit.joints:
-        _check_joint(one)
-    _check_names(kit)
-    for name, solid in kit.parts.items():
-        if not {*solid.coefficients} <= {*kit.values}:
-            msg = f"part {name}: moved by a parameter that the kit lacks"
-            raise ValueError(msg)
-        if not volume(solid.points(kit.values), solid.triangles) > 0:
-            msg = f"part {name}: inside out"
-            raise ValueError(msg)
-
-
-def _check_names(kit: Kit) -> None:
-    """Refuse a kit whose parts are not those that its frame and its joints need."""
-    if kit.graph is None:
-        if len(kit.joints) != 1 or kit.joints[0].pieces != joint(VALENCE[kit.frame], kit.key):
-            msg = "the joint is not the frame's"
-            raise ValueError(msg)
-        if set(kit.parts) != set(PARTS):
-            msg = f"parts must be {', '.join(PARTS)}"
-            raise ValueError(msg)
-    used = {p.part for p in kit.placements}
-    used.update(*({p.part for p in one.pieces} | {*one.connectors} for one in kit.joints))
-    if missing := used - set(kit.parts):
-        msg = f"part {min(missing)}: is needed and is not there"
-        raise ValueError(msg)
-
-
-def _check_joint(one: Joint) -> None:
-    """Refuse a kind of joint whose lists do not belong together."""
-    count = len(one.turns)
-    if len(one.connectors) != count or not {*one.keys, *one.caps} <= {*range(count)}:
-        msg = f"{one.title}: its lists do not belong together"
-        raise ValueError(msg)
-    _check_ways(one)
-
-
-def _check_ways(one: Joint) -> None:
-    """Refuse ways that do not take a joint apart, or not all of one that is proved."""
-    there = {*range(len(one.pieces))}
-    for way in one.ways:
-        if not {*way.moving} <= there:
-            msg = f"{one.title}: ways: {way.name!r} moves pieces that are not there then"
-            raise ValueError(msg)
-        there -= {*way.moving}
-    if one.verdicts and len(there) > 1:
-        left = ", ".join(one.pieces[n].part for n in sorted(there))
-        msg = f"{one.title}: ways: there is none by which {left} come apart"
-        raise ValueError(msg)
 
 
 def _refuse(reason: str) -> NoReturn:

@@ -23,7 +23,7 @@ from scadgen.check.ways import LEAST, LOOK
 from scadgen.frame.placement import Placement
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.path import Path
-from scadgen.kit.store import WAY_DECIMALS
+from scadgen.kit.ways import WAY_DECIMALS
 from scadgen.plan.standing import Standing
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.gap import solid

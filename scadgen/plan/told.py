@@ -11,7 +11,7 @@ import numpy as np
 
 from scadgen import __version__
 from scadgen.frame.layout import bill
-from scadgen.kit.store import WAY_DECIMALS
+from scadgen.kit.ways import WAY_DECIMALS
 from scadgen.plan.model import Move, Plan
 from scadgen.plan.motion import joints_of, motion_of
 from scadgen.plan.pegs import count_pegs
