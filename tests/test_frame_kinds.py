@@ -266,6 +266,27 @@ def test_a_joint_that_is_refused_is_made_with_another_key():
     assert len(forks_of(kinds_of(frame, refused=refused))) == 1
 
 
+def refused_of(kinds, number):
+    """The joint of a kind, to be kept out."""
+    directions, keys = kinds.shape(number).directions, kinds.kinds[number].keys
+    turns = np.degrees((np.roll(directions, -keys[0]) - directions[keys[0]]) % (2 * np.pi))
+    return Refused(tuple(turns), tuple((slot - keys[0]) % len(directions) for slot in keys))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_keys_of_refused_joints_move_along_the_loops_they_are_on(seed):
+    frame = delaunay(seed, 12 + seed)
+    kinds, refused = kinds_of(frame), []
+    for _ in range(3):
+        most = max(range(len(kinds.kinds)), key=lambda n: len(kinds.kinds[n].keys))
+        refused.append(refused_of(kinds, most))
+        kinds = kinds_of(frame, refused=refused)
+        assert_can_be_put_together(frame, kinds)
+        for number, kind in enumerate(kinds.kinds):
+            directions = kinds.shape(number).directions
+            assert not any(one.is_like(directions, kind.keys) for one in refused)
+
+
 def test_lone_ends_do_not_take_the_wide_ring_of_a_narrow_joint():
     kinds = kinds_of(fork(0, 50, 150))
     gaps = {tuple(np.degrees(shape.gaps).round().tolist()) for shape in kinds.shapes}

@@ -22,7 +22,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components, maximum_bipartite_matching
+from scipy.sparse.csgraph import (
+    breadth_first_order,
+    connected_components,
+    maximum_bipartite_matching,
+)
 
 from scadgen.frame.graph import Frame
 from scadgen.solid.affine import Floats, Ints
@@ -224,7 +228,45 @@ class _Few:
         for vertex, keys in enumerate(self._keys):
             if not keys:
                 keys.add(self._best(vertex, usual))
+        for vertex, keys in enumerate(self._keys):
+            if self._places.refuse(vertex, keys):
+                self._move_a_key(vertex)
         return self._keys
+
+    def _move_a_key(self, vertex: int) -> None:
+        """Move one of a vertex's keys so that neither joint is to be kept out, if there is a way.
+
+        It goes to the other end of its edge; or the edge becomes a whole one, and another one of
+        the loop that this closes gets a key instead.
+        """
+        for edge, end in np.argwhere(self._frame.edges == vertex).tolist():
+            if not self._has(edge, end):
+                continue
+            self._take(edge, end)
+            for other, side in [(edge, 1 - end), *itertools.product(self._loop(edge), (0, 1))]:
+                ends = {vertex, int(self._frame.edges[other, side])}
+                had = self._has(other, side)
+                self._add(other, side)
+                if all(self._keys[v] and not self._places.refuse(v, self._keys[v]) for v in ends):
+                    return
+                if not had:
+                    self._take(other, side)
+            self._add(edge, end)
+
+    def _loop(self, edge: int) -> list[int]:
+        """The edges without keys that close a loop with one that is to be without."""
+        edges, size = self._frame.edges, len(self._frame.vertices)
+        whole = [n for n in range(len(edges)) if not (self._has(n, 0) or self._has(n, 1))]
+        number = {frozenset(edges[n].tolist()): n for n in whole if n != edge}
+        pairs = np.array([sorted(pair) for pair in number]).reshape(-1, 2)
+        graph = coo_array((np.ones(len(pairs)), pairs.T), shape=(size, size))
+        start, place = edges[edge].tolist()
+        before = breadth_first_order(graph.tocsr(), start, directed=False)[1].tolist()
+        found = []
+        while before[place] >= 0:
+            found.append(number[frozenset((place, before[place]))])
+            place = before[place]
+        return found
 
     def _one_a_vertex(self, split: Ints) -> list[int | None]:
         """At which end each of these edges has its key: one a vertex, as far as that goes."""
@@ -245,8 +287,15 @@ class _Few:
             vertex, self._keys[vertex] | {int(self._places.slots[edge, end])}
         )
 
+    def _has(self, edge: int, end: int) -> bool:
+        """Whether there is a key at this end of an edge."""
+        return int(self._places.slots[edge, end]) in self._keys[int(self._frame.edges[edge, end])]
+
     def _add(self, edge: int, end: int) -> None:
         self._keys[int(self._frame.edges[edge, end])].add(int(self._places.slots[edge, end]))
+
+    def _take(self, edge: int, end: int) -> None:
+        self._keys[int(self._frame.edges[edge, end])].remove(int(self._places.slots[edge, end]))
 
     def _direction(self, vertex: int, slot: int) -> int:
         """Direction of a slot at a vertex, in steps."""
