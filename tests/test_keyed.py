@@ -1,5 +1,7 @@
 """Kits whose joints are all proved: keys go where joints lock and the frame holds."""
 
+import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -7,6 +9,7 @@ import pytest
 
 from scadgen.check.geometry import same
 from scadgen.check.proof import proved
+from scadgen.cli.main import main
 from scadgen.errors import JointError
 from scadgen.frame.graph import make_frame
 from scadgen.kit.build import Request, build
@@ -23,7 +26,7 @@ def request(name, points, edges):
 
 def towards(*degrees):
     turn = np.radians(degrees)
-    return 200 * np.column_stack([np.cos(turn), np.sin(turn)])
+    return (200 * np.column_stack([np.cos(turn), np.sin(turn)])).tolist()
 
 
 def gaps_from_key(kit):
@@ -48,6 +51,16 @@ def test_a_joint_that_does_not_lock_gets_another_key():
     assert loads(dumps(kit)).refused == kit.refused
     assert same(kit).good
     assert not same(replace(kit, refused=())).good
+
+
+def test_that_keys_were_chosen_anew_is_told(tmp_path, capsys):
+    points = [[0, 0], *towards(0, 39.2, 247.0, 295.4)]
+    file = tmp_path / "fork.json"
+    file.write_text(json.dumps({"vertices": points, "edges": [[0, n] for n in range(1, 5)]}))
+    with pytest.raises(SystemExit) as ended:
+        main(["kit", str(file), "--detail", "draft", "--no-cache", "-o", str(tmp_path / "kit")])
+    assert ended.value.code in (0, None)
+    assert re.search(r"note: \d+ choices? of a key not proved", capsys.readouterr().out)
 
 
 def test_keys_go_where_a_frame_holds_that_else_parts_at_a_lone_edge():

@@ -169,6 +169,9 @@ def kit(
         write = bar.steps(done, 1.0, _FILES)
         made = replace(made, material=material)
         write_kit(made, folder, progress=lambda file: write(f"writing {file}"))
+    if made.refused:
+        choices = counted(len(made.refused), "choice")
+        told.append(f"{choices} of a key not proved, or the frame loose with it: another is used")
     notes = (*notes, *told)
     if as_json:
         said = {"folder": str(folder), "notes": notes, **summary(made)}
