@@ -171,6 +171,14 @@ def test_an_edge_that_is_too_short_is_named_with_the_side_that_would_do(values):
         assert low <= made.values["edge_length"] < low + 0.3
 
 
+def test_what_all_but_meets_is_told_how_to_be_joined():
+    points = [[0, 0], [100, 0], [0.3, 0.2], [50, 80]]
+    frame = make_frame("open", points, [[0, 1], [2, 3], [1, 3]])
+    message = r"edge 0 is 0\.2 mm away \(in a file a larger --tolerance joins what is to meet\), "
+    with pytest.raises(GeometryError, match=message):
+        build(Request("open", "loose", 0, 0, "draft", values={"side": 5.0}, graph=frame))
+
+
 def test_pegs_of_wider_rings_are_of_one_shape_and_told_so():
     # Gaps of 60 and of 90 degrees: rings of 4.05 and of 2.7 sides.
     ends = [[0, 0], [300, 0], [150, 260], [300, 300]]

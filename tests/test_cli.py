@@ -646,4 +646,4 @@ def test_messages_about_nasty_names_are_one_line(refused, tmp_path):
         assert "it is a file" in refused("kit", "hexagonal", *DRAFT, "--unchecked", "-o", path)
         assert "not a JSON file" in refused("kit", "hexagonal", "--weave", path)
         assert "no kit" in refused("check", tmp_path / "nothing" / path.name)
-        assert "not a sound kit" in refused("check", path)
+        assert "must be a kit's folder" in refused("check", path)

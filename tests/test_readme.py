@@ -9,7 +9,9 @@ from stub_kit import COMMAND, stub_kit, with_joint
 
 from scadgen.emit.readme import readme
 from scadgen.emit.scad_parameters import limits
+from scadgen.errors import InputError
 from scadgen.frame.layout import LAYOUTS, bill
+from scadgen.kit.ranges import check_values
 
 
 def table(text, heading):
@@ -79,6 +81,11 @@ def test_live_parameters_have_value_and_range_inside_the_limits():
         least, most = limits(kit, name.strip("`"), kit.values)
         assert least - 1e-6 <= float(low) <= float(value) <= float(high) <= most + 1e-6
         assert meaning
+        # Each end works if nothing else is changed, and no more does.
+        for end, step in ((float(low), -0.02), (float(high), 0.02)):
+            check_values(kit.ranges, kit.values | {name.strip("`"): end})
+            with pytest.raises(InputError):
+                check_values(kit.ranges, kit.values | {name.strip("`"): end + step})
 
 
 def test_solid_kit_says_nothing_of_a_bore_to_set():

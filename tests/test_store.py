@@ -73,6 +73,10 @@ def test_no_kit_is_a_wrong_request(tmp_path):
     for path in (tmp_path, tmp_path / "nothing"):
         with pytest.raises(InputError, match=r"no kit can be read there .*scadgen kit -o FOLDER"):
             load(path)
+    drawing = tmp_path / "drawing.svg"
+    drawing.write_text("<svg/>")
+    with pytest.raises(InputError, match=r"drawing\.svg: must be a kit's folder"):
+        load(drawing)
 
 
 def test_what_is_not_text_is_not_a_kit(tmp_path):

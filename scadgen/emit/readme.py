@@ -10,12 +10,13 @@ from typing import Any
 
 from scadgen import __version__
 from scadgen.emit.picture import MOST_JOINTS
-from scadgen.emit.scad_parameters import Parameter, label, limits, sections
+from scadgen.emit.scad_parameters import Parameter, label, sections
 from scadgen.emit.scad_text import literal
 from scadgen.emit.templates import environment
 from scadgen.frame.layout import MOST_CELLS, bill
 from scadgen.kit.bill import Line, in_words, lines
 from scadgen.kit.model import DENSITIES, Joint, Kit
+from scadgen.kit.ranges import span
 
 __all__ = ["readme"]
 
@@ -119,8 +120,8 @@ def _whole(kit: Kit, needed: Sequence[Line]) -> dict[str, Any]:
 
 
 def _live(kit: Kit, parameter: Parameter) -> Mapping[str, str]:
-    """One live parameter: name, value, range at the defaults, meaning."""
-    low, high = limits(kit, parameter.name, kit.values)
+    """One live parameter: name, value, range if it alone is changed, meaning."""
+    low, high = span(kit.ranges, parameter.name, kit.values)
     unit = 10.0**_DECIMALS
     return {
         "name": parameter.name,

@@ -22,6 +22,9 @@ _GAP = 0.25
 #: Half a tube's width, in sides.
 _TUBE = 0.5
 
+#: What is as near as this, in mm, may have been meant to meet.
+_MEANT = 1.0
+
 #: Share of its need by which a distance may be short: rounding.
 _ROUNDING = 1e-9
 
@@ -59,9 +62,10 @@ class Apart:
         if not found:
             return None
         scale, what, vertex, other, far = max(found)
+        meant = " (in a file a larger --tolerance joins what is to meet)" if far < _MEANT else ""
         return (
             f"vertex {vertex} at {where(self.frame.vertices[vertex])}: {what} {other} is "
-            f"{far:.4g} mm away, {(scale - 1) * far:.4g} mm too near for the joint's ring with a "
+            f"{far:.4g} mm away{meant}, {(scale - 1) * far:.4g} mm too near for the joint's ring with a "
             f"side of {side:g} mm"
         )
 

@@ -13,7 +13,7 @@ from scadgen.element.squares import Key
 from scadgen.errors import InputError
 from scadgen.solid.affine import Linear, Range
 
-__all__ = ["SIDE", "TUBE", "WALL", "check_values", "edge_range", "ranges"]
+__all__ = ["SIDE", "TUBE", "WALL", "check_values", "edge_range", "ranges", "span"]
 
 #: Thinnest wall anywhere beside a hole, in sides; 0.4 mm, one line of a nozzle, at side 10 mm.
 WALL = 0.04
@@ -139,6 +139,31 @@ def _loose(key: Key, hole: float) -> list[Range]:
             "the sockets at a tube's two ends must not meet",
         ),
     ]
+
+
+def span(limits: Iterable[Range], name: str, values: Mapping[str, float]) -> tuple[float, float]:
+    """Lowest and highest value of a live parameter, in mm, if it alone is changed.
+
+    Parameters
+    ----------
+    limits
+        All ranges: a bound of another parameter may move with this one.
+    name
+        The parameter.
+    values
+        All parameters, within their ranges.
+    """
+    low, high = -math.inf, math.inf
+    for limit in limits:
+        for bound, sign in ((limit.low, 1.0), (limit.high, -1.0)):
+            # What is to be at most zero, and by how much it grows with the parameter.
+            over = sign * (bound(values) - values[limit.parameter])
+            slope = sign * (bound.terms.get(name, 0.0) - (limit.parameter == name))
+            if slope > 0:
+                high = min(high, values[name] - over / slope)
+            elif slope < 0:
+                low = max(low, values[name] - over / slope)
+    return low, high
 
 
 def check_values(limits: Iterable[Range], values: Mapping[str, float]) -> None:

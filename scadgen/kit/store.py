@@ -133,6 +133,9 @@ def load(folder: pathlib.Path) -> Kit:
         It is truncated, from another version, or not a sound kit.
     """
     path = folder / "kit.json" if folder.is_dir() else folder
+    if path.exists() and path.suffix != ".json":
+        msg = f"{path}: must be a kit's folder, which scadgen kit makes, or its kit.json"
+        raise InputError(msg)
     try:
         text = path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
