@@ -16,6 +16,7 @@ from scadgen.emit.scad_parameters import views
 from scadgen.errors import GeometryError, InputError
 from scadgen.frame.catalogue import named
 from scadgen.frame.graph import make_frame
+from scadgen.kit.bill import lines
 from scadgen.kit.build import Request, build
 from scadgen.kit.store import dumps, loads, summary
 from scadgen.solid.mesh import volume
@@ -191,6 +192,9 @@ def test_pegs_of_wider_rings_are_of_one_shape_and_told_so():
     assert len({peg.points(made.values)[:, 0].min() for peg in pegs}) == len(pegs) > 1
     names = ", ".join(f"`{peg.name}`" for peg in pegs)
     assert f"{names} are pegs of one shape" in readme(made)
+    # So one of ten of all of them is spare, not of each kind.
+    spares = [line.spares for line in lines(made) if line.part.startswith("peg")]
+    assert spares == [1] + [0] * (len(pegs) - 1)
 
 
 def test_edges_of_nearly_one_length_are_as_long_when_the_kit_is_made_again():

@@ -65,8 +65,8 @@ class Apart:
         meant = " (in a file a larger --tolerance joins what is to meet)" if far < _MEANT else ""
         return (
             f"vertex {vertex} at {where(self.frame.vertices[vertex])}: {what} {other} is "
-            f"{far:.4g} mm away{meant}, {(scale - 1) * far:.4g} mm too near for the joint's ring with a "
-            f"side of {side:g} mm"
+            f"{far:.4g} mm away{meant}, {(scale - 1) * far:.4g} mm too near for the joint's ring "
+            f"with a side of {side:g} mm"
         )
 
     def _near(self, side: float) -> Iterator[tuple[str, Ints, Ints, Floats, Floats]]:

@@ -85,7 +85,8 @@ def numbers(kit: Kit) -> dict[str, int]:
 def lines(kit: Kit) -> tuple[Line, ...]:
     """The parts that the frame of a kit needs, by number.
 
-    Of parts that are no edge elements one spare in ten is added, rounded up.
+    Of parts that are no edge elements one spare in ten is added, rounded up; of pegs, which are
+    all of one shape, to those of the first kind.
 
     Parameters
     ----------
@@ -94,8 +95,13 @@ def lines(kit: Kit) -> tuple[Line, ...]:
     """
     number, large, density = numbers(kit), set(kit.elements), DENSITIES[kit.material]
     slicing = kit.slicing or Slicing("", {}, {})
+    counts = bill(kit.placements, kit.parts)
+    small = {part: count for part, count in counts.items() if part not in large}
+    pegs = [part for part in small if part.startswith("peg")]
+    for part in pegs[1:]:
+        small[pegs[0]] += small.pop(part)
     found = []
-    for part, count in bill(kit.placements, kit.parts).items():
+    for part, count in counts.items():
         solid = kit.parts[part]
         size = volume(solid.points(kit.values), solid.triangles)
         found.append(
@@ -103,7 +109,7 @@ def lines(kit: Kit) -> tuple[Line, ...]:
                 number=number[part],
                 part=part,
                 count=count,
-                spares=0 if part in large else math.ceil(_SPARES * count),
+                spares=math.ceil(_SPARES * small.get(part, 0)),
                 volume=round(size, _DECIMALS),
                 mass=round(size / 1000 * density, _DECIMALS),
                 seconds=slicing.seconds.get(part),
