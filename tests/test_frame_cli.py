@@ -138,6 +138,15 @@ def test_what_is_said_of_other_frames_is_what_their_kits_say(name, said, capsys)
     assert float(refusal[1]) == pytest.approx(largest, abs=1e-3)
 
 
+def test_with_a_side_it_says_how_far_across_joints_are(run, said):
+    words = ("ring", "--sides", 4, "--edge-length", 100)
+    (joint,) = said(*words, "--ring-ratio", 2.5, "--side", 8)["kinds_of_joints"]
+    # From one side of the outer circle, 3 sides from the axis, to the other.
+    assert joint["across"] == 48
+    assert "across" in run(*words, "--side", 8)[1]
+    assert "across" not in run(*words)[1]
+
+
 def test_rings_are_those_of_the_kit_and_so_are_the_sides_that_fit(said, tmp_path):
     path = tmp_path / "tee.json"
     graph = {"vertices": [[0, 0], [-90, 0], [90, 0], [0, 90]], "edges": [[0, 1], [0, 2], [0, 3]]}

@@ -58,7 +58,7 @@ def report(
         "bounds": frame.bounds.tolist(),
         "notes": list(notes),
         "snap": snapped and _snap(snapped),
-        "kinds_of_joints": _joints(build),
+        "kinds_of_joints": _joints(build, side),
         "kinds_of_edges": _edges(build, side),
         "side": side,
         "largest_side": largest and math.floor(largest * 10**_DECIMALS) / 10**_DECIMALS,
@@ -76,7 +76,7 @@ def _snap(snapped: Snapped) -> dict[str, Any]:
     }
 
 
-def _joints(build: Build) -> list[dict[str, Any]]:
+def _joints(build: Build, side: float | None) -> list[dict[str, Any]]:
     import numpy as np
 
     from scadgen.frame.sameness import joint_name
@@ -93,6 +93,7 @@ def _joints(build: Build) -> list[dict[str, Any]]:
             "symmetry": joint.symmetry,
             "least_ring_ratio": _rounded(least),
             "ring_ratio": _rounded(ring),
+            "across": side and _rounded((2 * ring + 1) * side),
             "vertices": joint.vertices.tolist(),
         }
         for kind, (joint, least, ring) in enumerate(kinds)
@@ -131,7 +132,11 @@ def show(said: dict[str, Any]) -> None:
     joints, edges = said["kinds_of_joints"], said["kinds_of_edges"]
     click.echo(f"\nkinds of joints: {len(joints)}")
     _table(
-        ("joint", "count", "edges", "smallest ring", "ring", "angles"),
+        (
+            *("joint", "count", "edges", "smallest ring", "ring"),
+            *(("across",) if said["side"] else ()),
+            "angles",
+        ),
         [
             (
                 joint["name"],
@@ -139,6 +144,7 @@ def show(said: dict[str, Any]) -> None:
                 str(joint["edges"]),
                 f"{joint['least_ring_ratio']:.3f}",
                 f"{joint['ring_ratio']:.3f}",
+                *((f"{joint['across']:.4g}",) if said["side"] else ()),
                 " ".join(f"{angle:.4g}" for angle in joint["angles"]),
             )
             for joint in joints
