@@ -255,6 +255,16 @@ def test_what_is_kept_is_in_the_kit_and_nothing_else_changes(run, folder, stand_
     assert "1 h 40 min" in run("bill", folder)[1]
 
 
+@pytest.mark.usefixtures("no_slicer")
+def test_a_kit_is_made_again_of_the_material_that_is_kept(run, folder):
+    made = replace(load(folder), command="scadgen kit hexagonal -o any")
+    (folder / "kit.json").write_text(dumps(made))
+    for material in ("ABS", "PETG"):
+        assert run("bill", folder, "--keep", "--material", material)[0] == 0
+        assert load(folder).command == f"{made.command} --material {material}"
+        assert f"--material {material}" in (folder / "README.md").read_text()
+
+
 def contents(folder):
     return {path.name: path.is_dir() or path.read_bytes() for path in folder.iterdir()}
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -70,7 +71,8 @@ def bill(
         raise InputError(msg)
     kit = load(folder)
     if material is not None:
-        kit = replace(kit, material=check_material(material))
+        material = check_material(material)
+        kit = replace(kit, material=material, command=_remade(kit.command, material))
     place = check_bill(kit, folder) if keep else folder
     program = slicer.find()
     if program is not None and kit.placements:
@@ -161,3 +163,16 @@ def _show(kit: Kit) -> None:
         seconds = sum(line.count * (line.seconds or 0) for line in needed)
         spun = sum(line.count * (line.filament or 0.0) for line in needed) / 1000 * density
         click.echo(f"sliced one by one: {in_words(seconds)}, {spun:.0f} g; {kit.slicing.how}")
+
+
+def _remade(command: str, material: str) -> str:
+    """The command that makes a kit again, of another material."""
+    try:
+        words = shlex.split(command)
+    except ValueError:  # not one of ours
+        return command
+    if "--material" in words[:-1]:
+        words[words.index("--material") + 1] = material
+    elif words:
+        words += ["--material", material]
+    return shlex.join(words)

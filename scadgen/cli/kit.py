@@ -38,7 +38,11 @@ _NOT_MADE = ("frame", "output", "jobs", "dask", "no_cache", "as_json")
 #: The live parameters: option, what it sets, the words about its default.
 _LENGTHS = (
     ("side", "side of the square tubes", "10"),
-    ("edge_length", "distance between two vertices", "6 sides; more for a wide ring"),
+    (
+        "edge_length",
+        "length of the shortest edges; a frame from a file grows or shrinks to it",
+        "6 sides, more for a wide ring; of a file what it says",
+    ),
     ("clearance", "gap between mating faces", "0.2"),
     ("peg_width", "width of the square pegs", "0.4 sides"),
     ("peg_length", "length of the pegs", "0.6 sides; loose: as far as it must reach"),
