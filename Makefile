@@ -5,10 +5,10 @@ SHELL := bash
 BIN := .venv/bin
 PYTEST := $(BIN)/pytest -n auto --dist worksteal
 
-.PHONY: help setup demo test lint bench pictures clean
+.PHONY: help setup demo test lint bench bench-frames pictures clean
 
 help:  ## say what there is to make
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "make %-6s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 setup:  ## install everything needed, for the tests too
 	@scripts/setup tests
@@ -32,6 +32,12 @@ lint: setup  ## check style, types and layers
 bench:  ## measure how long things take
 	@scripts/setup tests
 	$(BIN)/python benchmarks/bench.py
+
+bench-frames:  ## the same of 10,000 different joints, all named frames and 200 random ones: hours
+	@scripts/setup tests
+	$(BIN)/python benchmarks/scaling.py 100 1000 10000
+	$(BIN)/python benchmarks/named_frames.py
+	$(BIN)/python benchmarks/random_frames.py 200
 
 pictures:  ## draw the pictures of the documentation
 	@scripts/setup
