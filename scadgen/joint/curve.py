@@ -23,10 +23,11 @@ __all__ = ["SiteCurve", "distances", "slopes"]
 #: How gently an arm that followed the ring begins to weave, in sides.
 _GENTLE = 0.25
 
-#: Newton steps to the nearest point; quadratic from a sample's distance, so 1e-12 after 4.
+#: Newton steps to the nearest point; quadratic from a sample's distance, so 1e-12 after 4, where
+#: the last one measures.
 _STEPS = 5
 
-#: A step smaller than this, in a curve's parameter, changes no distance: that has its square.
+#: A step smaller than this, in a curve's parameter, is not taken: by its square distances change.
 _STILL = 1e-8
 
 
