@@ -175,7 +175,7 @@ def test_an_edge_that_is_too_short_is_named_with_the_side_that_would_do(values):
 def test_what_all_but_meets_is_told_how_to_be_joined():
     points = [[0, 0], [100, 0], [0.3, 0.2], [50, 80]]
     frame = make_frame("open", points, [[0, 1], [2, 3], [1, 3]])
-    message = r"edge 0 is 0\.2 mm away \(in a file a larger --tolerance joins what is to meet\), "
+    message = r"edge 0 is 0\.2 mm away \(a larger --tolerance joins ends that are repaired\), "
     with pytest.raises(GeometryError, match=message):
         build(Request("open", "loose", 0, 0, "draft", values={"side": 5.0}, graph=frame))
 

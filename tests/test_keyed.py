@@ -10,7 +10,7 @@ import pytest
 from scadgen.check.geometry import same
 from scadgen.check.proof import proved
 from scadgen.cli.main import main
-from scadgen.errors import JointError
+from scadgen.errors import GeometryError, JointError
 from scadgen.frame.graph import make_frame
 from scadgen.kit.build import Request, build
 from scadgen.kit.store import dumps, loads
@@ -73,6 +73,23 @@ def test_keys_go_where_a_frame_holds_that_else_parts_at_a_lone_edge():
     assert whole_frame(stand(kit)).held
 
 
+def test_a_frame_that_may_come_apart_is_made_where_other_keys_make_none(monkeypatch):
+    wish = request("kite", [[0, 0], *towards(131.2, 224.2, 90.0)], [[0, 1], [0, 2], [1, 2], [0, 3]])
+    calls = []
+
+    def once(*words):
+        calls.append(words)
+        if len(calls) > 1:
+            message = "edge 0: too short"
+            raise GeometryError(message)
+        return build(*words)
+
+    monkeypatch.setattr("scadgen.plan.keyed.build", once)
+    kit = proved_kit(wish)
+    assert len(calls) == 2
+    assert all(joint.verdicts for joint in kit.joints)
+
+
 def test_of_components_each_is_held_by_itself():
     corners = [[0, 0], [150, 0], [75, 130]]
     points = [*corners, *([x + 400, y] for x, y in corners)]
@@ -94,6 +111,6 @@ def test_a_joint_that_no_key_makes_lock_is_refused_with_its_vertex(monkeypatch):
         raise JointError(message, kit.joints[-1].name, "it locks: no")
 
     monkeypatch.setattr("scadgen.plan.keyed.proved", never)
-    message = r"vertex \d at \(.*\), angles .*: it locks: no; with other keys it is refused as well"
+    message = r"vertex \d at \(-?\d.*\), angles \d.*: it locks: no; with other keys it is refused"
     with pytest.raises(JointError, match=message):
         proved_kit(wish)

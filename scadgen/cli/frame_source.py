@@ -172,6 +172,10 @@ def _load(name: str, given: dict[str, Any]) -> Read:
         for one, (*_, kinds) in _READING.items()
         if kinds is None or kind in kinds or (one in _OF_REPAIR and "repair" in given)
     ]
+    for one in _OF_REPAIR:
+        if one in given and one not in taken:
+            msg = f"frame {name}: {option(one)} needs --repair"
+            raise InputError(msg)
     _check_options(name, given, taken)
     if given.pop("no_split", False):
         given["split"] = False

@@ -211,6 +211,9 @@ def vertex_pairs(edges: ArrayLike, count: int) -> Ints:
     if given.dtype.kind not in "iu":
         msg = f"edges of type {given.dtype}: must be whole numbers"
         raise InputError(msg)
+    if not count:
+        msg = "there are no vertices: must be two or more"
+        raise InputError(msg)
     pairs = given.astype(np.int64)
     bad = np.flatnonzero(((pairs < 0) | (pairs >= count)).any(axis=1))
     if len(bad):

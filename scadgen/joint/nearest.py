@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["nearest_points", "pushes"]
+__all__ = ["nearest_points"]
 
 #: How exactly rows are met.
 _EXACT = 1e-12
@@ -49,28 +49,6 @@ def nearest_points(rows: Floats, need: Floats) -> tuple[Ints, NDArray[np.bool_]]
             break
         steps.take()
     return steps.limiting, steps.found
-
-
-def pushes(rows: Floats) -> Floats:
-    """How much rows push where they alone limit the shortest x with rows . x = need.
-
-    Parameters
-    ----------
-    rows
-        ``(k, 3, 3) float``: independent but for zeros, which fill up.
-
-    Returns
-    -------
-    pushes
-        ``(k, 3, 3) float``: times the need they are the rows' multipliers, whose combination
-        of the rows is x.
-    """
-    fill = np.where(rows.any(axis=2), 0.0, 1.0)
-    products = rows @ rows.swapaxes(1, 2) + fill[:, None] * np.eye(3)
-    try:
-        return np.asarray(np.linalg.inv(products))
-    except np.linalg.LinAlgError:  # rows that depend but for rounding share what they push
-        return np.asarray(np.linalg.pinv(products, hermitian=True))
 
 
 class _Steps:
@@ -137,6 +115,12 @@ class _Steps:
 
 
 def _across(rows: Floats, vector: Floats) -> tuple[Floats, Floats]:
-    """What is left of vectors across some rows, and how much of each row they hold."""
-    share = np.einsum("kij,kj->ki", pushes(rows), np.einsum("kij,kj->ki", rows, vector))
+    """What is left of vectors across some rows, and how much of each row they hold.
+
+    Rows are independent but for zeros, which fill up.
+    """
+    fill = np.where(rows.any(axis=2), 0.0, 1.0)
+    products = rows @ rows.swapaxes(1, 2) + fill[:, None] * np.eye(3)
+    along = np.einsum("kij,kj->ki", rows, vector)
+    share = np.asarray(np.linalg.solve(products, along[..., None])[..., 0], dtype=np.float64)
     return vector - np.einsum("kij,ki->kj", rows, share), share

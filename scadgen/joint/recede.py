@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array, csr_array
 
 from scadgen.errors import GeometryError
-from scadgen.joint.nearest import nearest_points, pushes
+from scadgen.joint.nearest import nearest_points
 from scadgen.joint.surface import Surface
 from scadgen.joint.walls import Facet
 from scadgen.solid.affine import Floats, Ints
@@ -124,11 +124,10 @@ class _Limits:
         self._rows = np.where(has[..., None], -faces[which], 0.0)
         self._within = self._rows @ self._free
         self._need = has.astype(float)
-        # What limits each vertex, as rows that are zero where nothing does, and how much each of
-        # them pushes for what it needs.
+        # What limits each vertex, and the inverse of these rows: times what they need, it is the
+        # shortest displacement; turned round, times that, how much each of them pushes.
         self._limiting = np.full((len(points), 3), -1)
-        self._limits = np.zeros((len(points), 3, 3))
-        self._push = np.zeros((len(points), 3, 3))
+        self._inverse = np.zeros((len(points), 3, 3))
 
     def nearest(self, wish: Floats) -> Floats:
         """The displacements nearest to what is wished for.
@@ -140,7 +139,7 @@ class _Limits:
         need = self._need - np.einsum("vwi,vi->vw", self._rows, start)
         found, weights = self._limited(need, slice(None))
         left = need - np.einsum("vwi,vi->vw", self._within, found)
-        good = (weights >= 0).all(axis=1) & (left.max(axis=1, initial=0.0) < _EXACT)
+        good = (weights >= -_EXACT).all(axis=1) & (left.max(axis=1, initial=0.0) < _EXACT)
         if (wrong := np.flatnonzero(~good)).size:
             limiting, exists = nearest_points(self._within[wrong], need[wrong])
             if not exists.all():
@@ -152,8 +151,7 @@ class _Limits:
                 raise GeometryError(msg)
             self._limiting[wrong] = limiting
             rows = self._within[wrong[:, None], limiting]
-            self._limits[wrong] = np.where(limiting[..., None] < 0, 0.0, rows)
-            self._push[wrong] = pushes(self._limits[wrong])
+            self._inverse[wrong] = np.linalg.pinv(np.where(limiting[..., None] < 0, 0.0, rows))
             found[wrong], _ = self._limited(need[wrong], wrong)
         return np.asarray(start + found)
 
@@ -162,8 +160,9 @@ class _Limits:
         limiting = self._limiting[some]
         wanted = np.take_along_axis(need, limiting, axis=1)
         wanted[limiting < 0] = 0.0
-        weights = np.einsum("vij,vj->vi", self._push[some], wanted)
-        return np.einsum("vij,vi->vj", self._limits[some], weights), weights
+        inverse = self._inverse[some]
+        found = np.einsum("vij,vj->vi", inverse, wanted)
+        return found, np.einsum("vij,vi->vj", inverse, found)
 
 
 def _unit(normals: Floats) -> Floats:

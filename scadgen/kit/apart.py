@@ -62,7 +62,7 @@ class Apart:
         if not found:
             return None
         scale, what, vertex, other, far = max(found)
-        meant = " (in a file a larger --tolerance joins what is to meet)" if far < _MEANT else ""
+        meant = " (a larger --tolerance joins ends that are repaired)" if far < _MEANT else ""
         return (
             f"vertex {vertex} at {where(self.frame.vertices[vertex])}: {what} {other} is "
             f"{far:.4g} mm away{meant}, {(scale - 1) * far:.4g} mm too near for the joint's ring "

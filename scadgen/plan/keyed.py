@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from scadgen.check.proof import proved
-from scadgen.errors import JointError
+from scadgen.errors import GeometryError, InputError, JointError
 from scadgen.frame.keys import Refused
 from scadgen.frame.planarity import corner
 from scadgen.kit.build import Request, build
@@ -103,7 +103,7 @@ class _Keyed:
             refused = (*kit.refused, *map(_refused, loose))
             try:
                 kit = self.proved(replace(request, refused=refused), _pegs(first))
-            except (JointError, _MorePegsError):
+            except (GeometryError, InputError, _MorePegsError):
                 return first  # rather a frame that may come apart than none, or many pegs
         return kit
 

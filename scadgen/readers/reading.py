@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from scadgen.errors import InputError
-from scadgen.frame.graph import Frame, make_frame, vertex_pairs
+from scadgen.frame.graph import LARGEST, Frame, make_frame, vertex_pairs
 from scadgen.frame.planarity import more, where
 from scadgen.frame.repair import MOST_SEGMENTS, TOLERANCE, repair
 from scadgen.solid.affine import Floats
@@ -134,6 +134,8 @@ def from_graph(name: str, vertices: ArrayLike, edges: ArrayLike, reading: Readin
     try:
         frame = make_frame(name, points, pairs)
     except InputError as error:
+        if not (np.abs(points) <= LARGEST).all():
+            raise
         msg = f"{error}; --repair mends what it can"
         raise InputError(msg) from None
     _check(frame, reading)
@@ -199,8 +201,8 @@ def _check(frame: Frame, reading: Reading) -> None:
         first = int((frame.components == frame.components[other]).argmax())
         msg = (
             f"{parts} parts that are not connected, one with {where(frame.vertices[0])}, one with "
-            f"{where(frame.vertices[first])}; connect them, in a drawing with a larger "
-            "--tolerance, or take them so (--components)"
+            f"{where(frame.vertices[first])}; connect them, where ends are repaired with a "
+            "larger --tolerance, or take them so (--components)"
         )
         raise InputError(msg)
     short = np.flatnonzero(frame.lengths < reading.shortest)
