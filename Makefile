@@ -33,7 +33,7 @@ bench:  ## measure how long things take
 	@scripts/setup tests
 	$(BIN)/python benchmarks/bench.py
 
-bench-frames:  ## the same of 10,000 different joints, all named frames and 200 random ones: hours
+bench-frames:  ## measure 10,000 different joints, all named frames, 200 random ones: hours
 	@scripts/setup tests
 	$(BIN)/python benchmarks/scaling.py 100 1000 10000
 	$(BIN)/python benchmarks/named_frames.py

@@ -111,6 +111,7 @@ def test_a_joint_that_no_key_makes_lock_is_refused_with_its_vertex(monkeypatch):
         raise JointError(message, kit.joints[-1].name, "it locks: no")
 
     monkeypatch.setattr("scadgen.plan.keyed.proved", never)
-    message = r"vertex \d at \(-?\d.*\), angles \d.*: it locks: no; with other keys it is refused"
+    where = r"vertex \d at \(-?\d.*\), angles \d.*"
+    message = f"{where}: it locks: no; with other keys it is refused as well"
     with pytest.raises(JointError, match=message):
         proved_kit(wish)

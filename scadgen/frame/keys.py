@@ -243,7 +243,8 @@ class _Few:
             if not self._has(edge, end):
                 continue
             self._take(edge, end)
-            for other, side in [(edge, 1 - end), *itertools.product(self._loop(edge), (0, 1))]:
+            loop = [] if self._has(edge, 1 - end) else self._loop(edge)
+            for other, side in [(edge, 1 - end), *itertools.product(loop, (0, 1))]:
                 ends = {vertex, int(self._frame.edges[other, side])}
                 had = self._has(other, side)
                 self._add(other, side)

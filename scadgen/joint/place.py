@@ -65,6 +65,7 @@ def place(
     points
         ``(len(keys), 3) float``, in sides.
     """
+    # Vertices that are nodes see no curves and have no directions to move in.
     start, basis = np.empty((len(keys), 3)), np.zeros((len(keys), 3, 3))
     seen, size = np.zeros((len(keys), len(curves)), dtype=np.bool_), np.zeros(len(keys))
     kinds = [(key[0], key[1]) for key in keys]
@@ -76,12 +77,12 @@ def place(
         shifts[:, list(axes)] = list(itertools.product((0, 1), repeat=len(axes)))
         i, j, k = np.moveaxis(index[:, None] + shifts, -1, 0)
         i %= len(lattice.planes)
-        corners, nearest = lattice.nodes[i, j, k], np.moveaxis(far[:, i, j, k], 0, -1)
+        corners, away = lattice.nodes[i, j, k], np.moveaxis(far[:, i, j, k], 0, -1)
         if not axes:
             start[rows] = corners[:, 0]
             continue
-        start[rows] = _middle_of_crossings(shifts, corners, nearest)
-        seen[np.array(rows)[:, None], nearest.argmin(-1)] = True
+        start[rows] = _middle_of_crossings(shifts, corners, away)
+        seen[np.array(rows)[:, None], away.argmin(-1)] = True
         size[rows] = np.linalg.norm(corners[:, -1] - corners[:, 0], axis=1)
         basis[rows, : len(axes)] = _basis(corners, len(axes))
     found = _meet(curves, seen, start, basis)
@@ -92,8 +93,8 @@ def place(
 def _axes(kind: tuple[str, int]) -> tuple[int, ...]:
     """The axes along which a feature extends."""
     name, axis = kind
-    extent = {"node": (), "edge": (axis,), "cell": (0, 1, 2)}
-    return extent.get(name) or (() if name == "node" else tuple({0, 1, 2} - {axis}))
+    across = tuple({0, 1, 2} - {axis})
+    return {"node": (), "edge": (axis,), "face": across, "cell": (0, 1, 2)}[name]
 
 
 def _middle_of_crossings(shifts: Ints, corners: Floats, far: Floats) -> Floats:
@@ -133,7 +134,7 @@ def _basis(corners: Floats, dimensions: int) -> Floats:
 def _meet(
     curves: Sequence[SiteCurve], seen: NDArray[np.bool_], start: Floats, basis: Floats
 ) -> Floats:
-    """Points nearest the start, within the basis, equally far from all curves seen."""
+    """Points nearest the start, within the basis, equally far from all curves seen, if any."""
     points = start.copy()
     reference = seen.argmax(axis=1)
     moving = np.flatnonzero(seen.any(axis=1))
