@@ -155,6 +155,7 @@ def _joint(valence: int, key: str) -> Joint:
         keys=(0,),
         caps=(),
         connectors=("connector",) * valence,
+        over=(),
         weave={"name": "stub", "ring_ratio": 1.5},
         pieces=joint(valence, key),
         figures={"play_mm_per_mm": 12.0},

@@ -1,5 +1,6 @@
 """Kits of any frame: joints of unequal angles, several kinds of parts."""
 
+import itertools
 import math
 import re
 
@@ -7,7 +8,7 @@ import numpy as np
 import pytest
 from kits import bounds, once
 
-from scadgen.check.geometry import closed, footprint, gaps, partition, same
+from scadgen.check.geometry import closed, footprint, gaps, partition, placed, same
 from scadgen.check.locking import joint_locks
 from scadgen.emit.placing import placing
 from scadgen.emit.readme import readme
@@ -19,6 +20,7 @@ from scadgen.frame.graph import make_frame
 from scadgen.kit.bill import lines
 from scadgen.kit.build import Request, build
 from scadgen.kit.store import dumps, loads, summary
+from scadgen.solid.gap import smallest_gap
 from scadgen.solid.mesh import volume
 from scadgen.tools.openscad import render
 from scadgen.tools.stl import check_stl
@@ -40,7 +42,13 @@ def fork():
     return once("any-fork", lambda _: build(request(make_frame("fork", *FORK))))
 
 
-both = pytest.mark.parametrize("made", [ladder, fork])
+def dozen():
+    """A patch of 4.6.12, of whose joints every other one is turned over."""
+    graph = named("4.6.12", rows=1, columns=1)
+    return once("any-dozen", lambda _: build(request(graph)))
+
+
+both = pytest.mark.parametrize("made", [ladder, fork, dozen])
 
 
 def test_the_parts_of_a_ladder_are_those_reasoned_out_by_hand():
@@ -63,6 +71,44 @@ def test_the_parts_of_a_ladder_are_those_reasoned_out_by_hand():
         n * sum(1 for p in _ends(made, part) if p) for part, n in bill.items() if part in ends
     )
     assert whole + connectors == 12
+
+
+def test_the_parts_of_4612_are_those_reasoned_out_by_hand():
+    # Each edge is between a joint and one that is turned over; those have their key at another
+    # edge.  So there are two kinds of joints, and an element for each kind of edge: between square
+    # and hexagon, square and dodecagon, hexagon and dodecagon.
+    made = dozen()
+    assert [len(joint.turns) for joint in made.joints] == [3, 3]
+    assert len(made.elements) == 3
+    over = {place.at: place.flip for place in made.placements if place.role == "half_a"}
+    for place in made.placements:
+        if place.part in made.elements:
+            times = made.parts[place.part].coefficients["edge_length"][:, 0].max()
+            turn = math.radians(place.turn)
+            end = np.array(place.at) + times * np.array([math.cos(turn), math.sin(turn)])
+            far = min(over, key=lambda at: np.hypot(*(end - at)))
+            assert over[place.at] != over[far]
+
+
+@pytest.mark.parametrize("name", ["4.6.12", "V3.3.4.3.4", "V3.6.3.6"])
+def test_what_is_turned_over_is_one_clearance_from_its_neighbours(name):
+    # All around each joint, as everything stands in the frame.
+    made = build(request(named(name, rows=2, columns=2)))
+    assert any(place.turned_over for place in made.placements)
+    clearance, unit, side = (made.values[n] for n in ("clearance", "edge_length", "side"))
+    meshes = [placed(made, place, made.values) for place in made.placements]
+    reach = side * max(joint.figures["tube_start_sides"] for joint in made.joints)
+    for at in {place.at for place in made.placements if place.role == "half_a"}:
+        around = [
+            (points, triangles)
+            for place, (points, triangles) in zip(made.placements, meshes, strict=True)
+            if place.role != "peg"
+            and np.hypot(*(points[:, :2] - unit * np.array(at)).T).min() < reach
+        ]
+        found = [smallest_gap(*a, *b, 10.0) for a, b in itertools.combinations(around, 2)]
+        touching = [gap for gap in found if gap < 2 * clearance]
+        assert len(touching) >= len(around)
+        assert min(found) > 0.9 * clearance
 
 
 def _ends(made, name):

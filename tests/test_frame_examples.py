@@ -71,7 +71,7 @@ def test_the_one_drawn_by_hand_is_hexagons_when_it_is_snapped():
     rough = read(FRAMES / "rough.svg").frame
     found = move_vertices(rough, 2.0)
     hexagons = sameness(named("hexagonal", rows=2, columns=3))
-    assert found.after == (len(hexagons.joints), len(hexagons.edges)) == (2, 4)
+    assert found.after == (len(hexagons.joints), len(hexagons.edges)) == (2, 3)
     assert found.before == (22, 27)
 
 

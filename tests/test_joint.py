@@ -152,6 +152,24 @@ def test_any_directions_partition_or_are_refused(gaps, start):
         assert "\n" not in str(error)  # noqa: PT017  both ends are good
 
 
+@settings(max_examples=8)
+@given(st.permutations([70, 95, 125, 70]), st.sampled_from([(0,), (1,), (0, 2), (1, 3)]))
+def test_a_joint_with_its_edges_the_other_way_around_is_the_joint_turned_over(gaps, keys):
+    edges = np.radians(np.cumsum([0, *gaps[:-1]]))
+    back = np.sort(-edges % (2 * np.pi))
+    count, weave = len(edges), any_joint(math.radians(min(gaps)))
+    one = make_joint(edges.tolist(), weave, DETAILS["draft"], 0, keys)
+    other = make_joint(back.tolist(), weave, DETAILS["draft"], 0, [-key % count for key in keys])
+    for slot in range(count):
+        here, there = one.halves[slot], other.halves[-slot % count]
+        pairs = [(one.connectors[slot], other.connectors[-slot % count])]
+        pairs += [(here[0], there[1]), (here[1], there[0])]
+        for surface, turned in pairs:
+            assert len(surface.points) == len(turned.points)
+            tree = cKDTree(surface.points * [1, -1, -1])
+            assert tree.query(turned.points)[0].max() < 1e-9
+
+
 @pytest.mark.parametrize("frame", WEAVES)
 def test_tubes_start_as_exact_squares(frame):
     made = joint(frame)

@@ -172,7 +172,7 @@ def test_hexagons_need_no_loose_peg_and_rows_go_on_as_one():
     # The upper half of a hexagon: three joints, the middle one with a peg at the rim.
     roles = Counter(plan.standing.kit.placements[part].role for part in move.parts)
     assert roles == {"row": 2, "cap": 2, "half_a": 3, "half_b": 3, "peg": 1}
-    assert move.turn == pytest.approx(90)
+    assert move.origin.turn == pytest.approx(90)
 
 
 def test_a_part_from_the_middle_does_not_come_out_before_its_turn():
@@ -182,7 +182,7 @@ def test_a_part_from_the_middle_does_not_come_out_before_its_turn():
     move = next(m for m in elements if made.placements[m.parts[0]].part == "basic")
     everything = range(len(made.placements))
     path = plan.ways[move.way]
-    found = Prover(plan.standing).proved(path, move.parts, everything, move.at, move.turn)
+    found = Prover(plan.standing).proved(path, move.parts, everything, move.origin)
     assert found.blocking is not None
     told_moves = [m for s in entry["steps"] if s["what"] == "connectors" for m in s["moves"]]
     same = next(m for m in told_moves if m["parts"] == list(move.parts))
@@ -194,7 +194,9 @@ def test_rows_do_not_slide_the_other_way():
     plan = planned(FRAMES[0])
     (move,) = plan.steps[-1].moves
     path, everything = plan.ways[move.way], range(len(plan.standing.kit.placements))
-    found = Prover(plan.standing).proved(path, move.parts, everything, move.at, move.turn + 180)
+    found = Prover(plan.standing).proved(
+        path, move.parts, everything, replace(move.origin, turn=move.origin.turn + 180)
+    )
     assert found.blocking is not None
 
 
@@ -256,7 +258,7 @@ def test_rows_slide_until_a_plane_is_between_however_wide_the_rings_are():
     made = framed(wide, 2, 1)
     everything = set(range(len(made.placements)))
     for choice in next(Rows(stand(made)).choices()):
-        turn = math.radians(choice.turn)
+        turn = math.radians(choice.origin.turn)
         way = np.array([math.cos(turn), math.sin(turn), 0.0])
         near = [corners(made, n) @ way for n in everything - choice.parts]
         gone = [corners(made, n) @ way + choice.path.poses[-1][0, 3] for n in choice.parts]

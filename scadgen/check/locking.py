@@ -58,8 +58,8 @@ def _whole(kit: Kit, joint: Joint, clearance: float = 0.0) -> list[Mesh]:
     """All connectors of a joint, none of them split."""
     values = {**kit.values, "clearance": clearance}
     return [
-        placed(kit, Placement(name, (0, 0), turn, flip=False, role="cap"), values)
-        for name, turn in zip(joint.connectors, joint.turns, strict=True)
+        placed(kit, Placement(name, (0, 0), turn, edge in joint.over, role="cap"), values)
+        for edge, (name, turn) in enumerate(zip(joint.connectors, joint.turns, strict=True))
     ]
 
 

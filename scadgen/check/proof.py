@@ -154,6 +154,7 @@ def _key(claim: Claim) -> str:
         keys=joint.keys,
         caps=joint.caps,
         connectors=[number[name] for name in joint.connectors],
+        over=joint.over,
         weave=dict(joint.weave),
         pieces=[[number[p.part], p.at, p.turn, p.flip, p.role] for p in joint.pieces],
         figures=dict(joint.figures),

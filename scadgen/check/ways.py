@@ -1,8 +1,8 @@
 """Whether a joint can be put together: the ways on which its pieces come apart, backwards.
 
 1. The pegs come out: a fixed one with its tube, a loose one into the ring's hole.
-2. The halves, half A of a lone key first; the tubes of all connectors stay, and those of loose
-   pegs.
+2. The halves, half A of a lone key first if it can; the tubes of all connectors stay, and those
+   of loose pegs.
 3. The connectors, with their tubes, each alone, until one is left.
 
 A way that is known is proved again for the kit's own solids.  Where there is none, a motion that
@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -61,11 +61,16 @@ class _Stage:
     name
         Its words.
     choices
-        Bodies of which one has to come out: numbers of pieces in the joint.
+        Bodies of which one has to come out, numbers of pieces in the joint, each with the words
+        for that.
     """
 
     name: str
-    choices: Sequence[tuple[int, ...]]
+    choices: Mapping[tuple[int, ...], str]
+
+    def way(self, moving: tuple[int, ...], path: Path) -> Way:
+        """The way of one of these bodies."""
+        return Way(self.choices[moving], moving, _rounded(path))
 
 
 def come_apart(
@@ -109,7 +114,7 @@ def come_apart(
     bodies = _Bodies(kit, joint)
     known, present = tuple(known), set(range(len(joint.pieces)))
     while stage := _next(joint, present):
-        fitting = [w for w in known if w.name == stage.name and w.moving in stage.choices]
+        fitting = [way for way in known if stage.choices.get(way.moving) == way.name]
         found: tuple[Way, float] | str | None = (
             bodies.known(fitting, present)
             or bodies.opened(stage, present)
@@ -125,7 +130,7 @@ def come_apart(
             found = bodies.widened(found[0], present) or found
         way, gap = found
         figure = f"{gap:.3f} mm from all others"
-        yield Result(stage.name, good=True, figure=figure, bound=_BOUND), way
+        yield Result(way.name, good=True, figure=figure, bound=_BOUND), way
         present -= set(way.moving)
 
 
@@ -135,17 +140,23 @@ def _next(joint: Joint, present: set[int]) -> _Stage | None:
     for kind in ("peg", "half"):
         left = [n for n, k in kinds.items() if k == kind]
         if left and len(joint.keys) == 1:
-            name = f"half {'AB'[len(left) == 1]}" if kind == "half" else "the peg"
-            return _Stage(f"{name} comes out", [(left[0],)])
+            words = {"half_a": "half A", "half_b": "half B", "peg": "the peg"}
+            names = {n: f"{words[joint.pieces[n].role]} comes out" for n in left}
+            return _Stage(names[left[0]], {(n,): name for n, name in names.items()})
         if left:
             name = {1: f"the last {kind} comes"}.get(
                 len(left), f"one of {len(left)} {_MANY[kind]} comes"
             )
-            return _Stage(f"{name} out", [(n,) for n in left])
+            return _one_of(f"{name} out", left)
     left = list(kinds)
     if len(left) < 2:
         return None
-    return _Stage(f"{len(left)} connectors come apart", [(n,) for n in left])
+    return _one_of(f"{len(left)} connectors come apart", left)
+
+
+def _one_of(name: str, pieces: Iterable[int]) -> _Stage:
+    """A stage that is called the same whichever piece comes out."""
+    return _Stage(name, {(n,): name for n in pieces})
 
 
 class _Bodies:
@@ -187,7 +198,7 @@ class _Bodies:
         narrow: tuple[Way, float] | None = None
         for choice in stage.choices:
             for path in self._proposed(choice[0], present):
-                way = Way(stage.name, choice, _rounded(path))
+                way = stage.way(choice, path)
                 gap = self.gap(way, present)
                 if gap > _ROOMY * self.clearance:
                     return way, gap
@@ -239,7 +250,7 @@ class _Bodies:
             share = left / (len(searches) - number)
             found = escape(*self.bodies(choice, present), seed=seed, seconds=share)
             if isinstance(found, Path):
-                way = Way(stage.name, choice, _rounded(found.scaled(1 / self.side)))
+                way = stage.way(choice, found.scaled(1 / self.side))
                 gap = self.gap(way, present)
                 if gap > 0:
                     return way, gap

@@ -90,7 +90,7 @@ def _joints(build: Build, side: float | None) -> list[dict[str, Any]]:
             "angles": [
                 _rounded(math.degrees(gap)) for gap in np.diff(joint.directions, append=2 * math.pi)
             ],
-            "symmetry": joint.symmetry,
+            "symmetry": joint.symmetry.turns,
             "least_ring_ratio": _rounded(least),
             "ring_ratio": _rounded(ring),
             "across": side and _rounded((2 * ring + 1) * side),
@@ -110,8 +110,10 @@ def _edges(build: Build, side: float | None) -> list[dict[str, Any]]:
             "count": len(edge.edges),
             "length": _rounded(edge.length),
             "ends": [
-                {"joint": joint_name(joint), "edge": slot + 1}
-                for joint, slot in zip(edge.joints, edge.slots, strict=True)
+                {"joint": joint_name(joint), "edge": slot + 1, "over": over}
+                for joint, slot, over in zip(
+                    edge.joints, edge.slots, (False, edge.over), strict=True
+                )
             ],
             "missing": _rounded(missing[edge.edges].max()),
             "edges": edge.edges.tolist(),
@@ -158,7 +160,9 @@ def show(said: dict[str, Any]) -> None:
                 edge["name"],
                 str(edge["count"]),
                 f"{edge['length']:.6g}",
-                " - ".join(f"{end['joint']}.{end['edge']}" for end in edge["ends"]),
+                " - ".join(
+                    f"{end['joint']}.{end['edge']}{' over' * end['over']}" for end in edge["ends"]
+                ),
                 f"{edge['missing']:.4g}" if edge["missing"] else "",
             )
             for edge in edges

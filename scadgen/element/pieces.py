@@ -11,7 +11,7 @@ import numpy as np
 from scadgen.element.squares import Key, Length, chain, vertex
 from scadgen.errors import InvariantError
 from scadgen.joint.pieces import PAD, SPLIT, TUBE
-from scadgen.joint.surface import Surface
+from scadgen.joint.surface import Surface, half_turn
 from scadgen.joint.walls import Facet
 from scadgen.solid.affine import AffineSolid, Floats
 from scadgen.solid.planar import triangulate
@@ -37,6 +37,11 @@ class Piece:
     surface: Surface
     displacement: Floats
     rest: float
+
+    def turned_over(self) -> Piece:
+        """The same after a half turn about its edge."""
+        way = np.array([1.0, -1.0, -1.0])
+        return Piece(half_turn(self.surface), self.displacement * way, self.rest)
 
 
 def add_surface(shell: Shell, piece: Piece, left_out: Collection[Facet]) -> None:

@@ -64,6 +64,12 @@ def readme(kit: Kit) -> str:
         joints=[_joint(kit, one) for one in kit.joints],
         grid=kit.rows > 0,
         half_names=sorted({name for one in kit.joints for name in one.half_parts}),
+        half_a_over=any(
+            place.role == "half_a" and place.part.endswith("_over")
+            for one in kit.joints
+            for place in one.pieces
+        ),
+        turned_over=any(place.turned_over for place in kit.placements),
         side=literal(kit.values["side"]),
         peg_length=literal(kit.values["peg_length"]),
         coupon_count=settings["coupon_count"].value,

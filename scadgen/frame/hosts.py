@@ -16,9 +16,11 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from scadgen.frame.congruence import JointClass
 from scadgen.frame.graph import Frame
 from scadgen.frame.keys import ANGLE, steps_of
 from scadgen.frame.sameness import Sameness
+from scadgen.joint.symmetry import Symmetry
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["Hosted", "Shape", "hosted"]
@@ -39,16 +41,11 @@ class Shape:
     directions
         ``(k,) float``: ascending from 0, in radians, caps' included.
     symmetry
-        In how many ways it can be turned onto itself.
+        Which of them are alike.
     """
 
     directions: Floats
-    symmetry: int
-
-    @property
-    def period(self) -> int:
-        """Slots that differ by this are alike."""
-        return len(self.directions) // self.symmetry
+    symmetry: Symmetry
 
     @property
     def gaps(self) -> Floats:
@@ -71,15 +68,19 @@ class Hosted:
         Of all joints.
     shape_of
         ``(n,) int``: the shape of each vertex.
+    over
+        ``(n,) bool``: whether its shape is turned over there; not if it can be turned over onto
+        itself.
     turn
-        ``(n,) float``: the angle that maps its shape's directions to the vertex's; as small as
-        the shape's symmetry allows.
+        ``(n,) float``: where its shape's first direction is there; as small as the shape's
+        symmetry allows.
     slots
         ``(m, 2) int``: the slot of its shape that each end of an edge takes.
     """
 
     shapes: tuple[Shape, ...]
     shape_of: Ints
+    over: NDArray[np.bool_]
     turn: Floats
     slots: Ints
 
@@ -93,12 +94,24 @@ class _Host:
     joint
         Number of the class that it is; -1 for that of a lone end.
     turn
-        The angle by which the class's directions are turned to be among its own.
+        Where the class's first direction is among its own.
+    over
+        Whether the class is turned over there.
     slots
         Which of its directions each of the class's becomes.
     """
 
     joint: int
+    turn: float
+    over: bool
+    slots: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Stood:
+    """A host at a vertex: whether it is turned over, its turn, its slots by the class's."""
+
+    over: bool
     turn: float
     slots: tuple[int, ...]
 
@@ -125,10 +138,11 @@ def hosted(frame: Frame, same: Sameness, *, rim: bool = True) -> Hosted:
     return Hosted(
         tuple(choice.shape(number) for number in used),
         np.array([used.index(host.joint) for host in chosen]),
-        np.array([turn for turn, _ in found]),
+        np.array([stood.over for stood in found]),
+        np.array([stood.turn for stood in found]),
         np.array(
             [
-                [found[v][1][n] for v, n in zip(*pair, strict=True)]
+                [found[v].slots[n] for v, n in zip(*pair, strict=True)]
                 for pair in zip(frame.edges.tolist(), choice.place.tolist(), strict=True)
             ]
         ),
@@ -170,8 +184,9 @@ def _hosts(same: Sameness, kept: Collection[int]) -> list[list[_Host]]:
         if len(own) == 1:
             larger = [n for n in larger if _holds_lone_ends(directions[n])]
         larger.sort(key=lambda n: (-len(same.joints[n].vertices), n))
-        fits = [host for n in larger for host in _fits(own, n, directions[n])]
-        alone = _Host(number, 0.0, tuple(range(len(own)))) if len(own) > 1 else _Host(-1, 0.0, (0,))
+        fits = [host for n in larger for host in _fits(own, n, same.joints[n])]
+        joint = number if len(own) > 1 else -1
+        alone = _Host(joint, 0.0, over=False, slots=tuple(range(len(own))))
         found.append(fits or [alone])
         itself.append(alone)
     return [list(_roots(found, hosts)) or [own] for hosts, own in zip(found, itself, strict=True)]
@@ -186,13 +201,21 @@ def _holds_lone_ends(directions: Floats) -> bool:
     return bool(gaps.min() > np.radians(_NARROW) - ANGLE and gaps.max() < np.pi + ANGLE)
 
 
-def _fits(own: Floats, number: int, other: Floats) -> Iterator[_Host]:
+def _fits(own: Floats, number: int, host: JointClass) -> Iterator[_Host]:
     """The ways that put some directions among those of another class."""
-    for start in other.tolist():
-        off = (own[:, None] + start - other + np.pi) % (2 * np.pi) - np.pi
+    # Turned over they fit a host that is itself turned over just as they do otherwise.
+    ways = (False, True) if host.symmetry.mirror is None else (False,)
+    for over, start in itertools.product(ways, host.directions.tolist()):
+        seen = start + _sign(over) * own
+        off = (seen[:, None] - host.directions + np.pi) % (2 * np.pi) - np.pi
         slots = np.abs(off).argmin(axis=1)
         if (np.abs(off[np.arange(len(own)), slots]) < ANGLE).all():
-            yield _Host(number, start, tuple(slots.tolist()))
+            yield _Host(number, start, over, tuple(slots.tolist()))
+
+
+def _sign(over: bool) -> int:  # noqa: FBT001
+    """The sense in which directions follow each other."""
+    return -1 if over else 1
 
 
 def _roots(hosts: Sequence[Sequence[_Host]], own: Sequence[_Host]) -> Iterator[_Host]:
@@ -206,7 +229,8 @@ class _Choice:
     def __init__(self, frame: Frame, same: Sameness, hosts: Sequence[Sequence[_Host]]) -> None:
         self._frame, self._same, self._hosts = frame, same, hosts
         #: Which direction of its class each end of an edge takes.
-        self.place = (frame.slots - same.shift[frame.edges]) % frame.degree[frame.edges]
+        way = np.where(same.over, -1, 1)[frame.edges]
+        self.place = way * (frame.slots - same.shift[frame.edges]) % frame.degree[frame.edges]
         self._ends: list[list[tuple[int, int]]] = [[] for _ in frame.vertices]
         for edge, pair in enumerate(frame.edges.tolist()):
             for end, vertex in enumerate(pair):
@@ -215,23 +239,27 @@ class _Choice:
     def shape(self, joint: int) -> Shape:
         """The shape of a class of joints."""
         if joint < 0:
-            return Shape(_LONE, 3)
+            return Shape(_LONE, Symmetry(3, 1, 0))
         found = self._same.joints[joint]
         return Shape(found.directions, found.symmetry)
 
-    def standing(self, vertex: int, host: _Host) -> tuple[float, tuple[int, ...]]:
-        """Turn and slots of a joint in a host, turned as little as its symmetry allows.
+    def standing(self, vertex: int, host: _Host) -> _Stood:
+        """A joint in a host, turned as little as its symmetry allows, over only if need be.
 
         A lone end stays as it is: with its edge in the first slot.
         """
-        turn = float(self._same.turn[vertex]) - host.turn
+        over = bool(self._same.over[vertex]) != host.over
+        turn = float(self._same.turn[vertex]) - _sign(over) * host.turn
         if host.joint < 0:
-            return turn, host.slots
+            return _Stood(over=False, turn=turn, slots=host.slots)
         shape = self.shape(host.joint)
-        step = 2 * np.pi / shape.symmetry
-        steps = int((turn + ANGLE) // step)
-        count = len(shape.directions)
-        return turn - steps * step, tuple((n + steps * shape.period) % count for n in host.slots)
+        slots, count, mirror = np.array(host.slots), len(shape.directions), shape.symmetry.mirror
+        if over and mirror is not None:
+            over, turn = False, turn - float(shape.directions[mirror])
+            slots = mirror - slots
+        least, steps = shape.symmetry.least_turn(np.array([turn % (2 * np.pi)]), ANGLE)
+        slots = (slots + _sign(over) * int(steps[0]) * shape.symmetry.period) % count
+        return _Stood(over, float(least[0]), tuple(slots.tolist()))
 
     def made(self) -> list[_Host]:
         """The host of each vertex."""
@@ -245,23 +273,27 @@ class _Choice:
                 self._end(edge, end, chosen[v]) for end, v in enumerate(ends)
             )
         }
-        turns = {
-            (host.joint, int(steps_of(self.standing(v, host)[0]))) for v, host in chosen.items()
-        }
+        turns = {self._turned(v, host) for v, host in chosen.items()}
         for vertex in self._outwards(chosen):
             chosen[vertex] = max(
                 options[vertex],
                 key=lambda host: (
                     self._likeness(vertex, host, chosen, usual),
-                    (host.joint, int(steps_of(self.standing(vertex, host)[0]))) in turns,
+                    self._turned(vertex, host) in turns,
                 ),
             )
         return [chosen[vertex] for vertex in range(len(options))]
 
-    def _end(self, edge: int, end: int, host: _Host) -> tuple[int, int]:
-        """Joint and slot of an edge's end in a host."""
+    def _turned(self, vertex: int, host: _Host) -> tuple[int, bool, int]:
+        """A host, whether it is turned over at a vertex, and how it is turned."""
+        stood = self.standing(vertex, host)
+        return host.joint, stood.over, int(steps_of(stood.turn))
+
+    def _end(self, edge: int, end: int, host: _Host) -> tuple[int, bool, int]:
+        """Joint, whether it is turned over, and slot of an edge's end in a host."""
         vertex = int(self._frame.edges[edge, end])
-        return host.joint, self.standing(vertex, host)[1][int(self.place[edge, end])]
+        stood = self.standing(vertex, host)
+        return host.joint, stood.over, stood.slots[int(self.place[edge, end])]
 
     def _outwards(self, chosen: Collection[int]) -> Iterator[int]:
         """The vertices that are not chosen, those beside chosen ones first."""
@@ -279,7 +311,7 @@ class _Choice:
         vertex: int,
         host: _Host,
         chosen: dict[int, _Host],
-        usual: Collection[tuple[tuple[int, int], ...]],
+        usual: Collection[tuple[tuple[int, bool, int], ...]],
     ) -> int:
         """How many of a vertex's edges would be like usual ones, as far as is known."""
         return sum(

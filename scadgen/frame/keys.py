@@ -5,10 +5,11 @@ whose ends are both whole are a forest.  Every other edge has a key at one end a
 every vertex has one.  So n vertices and m edges take max(n, m - n + 1) keys or more.
 
 The fewest parts come from joints that are alike.  In this order are tried: one key, the same in
-all joints of a shape; one key, the same in all joints of a shape that are turned alike; what
-takes few keys, wherever they are; and instead of that several keys, the same in all joints of a
-shape, where the frame is so dense that it gives fewer parts.  Joints that were refused with their
-keys where they were are kept out of all of these as far as that goes.
+all joints of a shape; one key, the same in all joints of a shape with the same side up; one key,
+the same in those that are turned alike as well; what takes few keys, wherever they are; and
+instead of that several keys, the same in all joints of a shape, where the frame is so dense that
+it gives fewer parts.  Joints that were refused with their keys where they were are kept out of
+all of these as far as that goes.
 """
 
 from __future__ import annotations
@@ -62,14 +63,14 @@ class Refused:
     keys: tuple[int, ...]
 
     def is_like(self, directions: Floats, slots: Collection[int]) -> bool:
-        """Whether it is the joint with these directions and keys."""
+        """Whether it is the joint with these directions and keys, or that turned over."""
         count = len(directions)
         if count != len(self.turns) or len(slots) != len(self.keys):
             return False
-        for first in slots:
-            turns = (np.roll(directions, -first) - directions[first]) % (2 * np.pi)
+        for first, way in itertools.product(slots, (1, -1)):
+            turns = way * (directions[(first + way * np.arange(count)) % count] - directions[first])
             off = (turns - np.radians(self.turns) + np.pi) % (2 * np.pi) - np.pi
-            keys = tuple(sorted((slot - first) % count for slot in slots))
+            keys = tuple(sorted(way * (slot - first) % count for slot in slots))
             if keys == self.keys and bool((np.abs(off) < ANGLE).all()):
                 return True
         return False
@@ -89,8 +90,10 @@ class Places:
         Of each shape, how many connectors it has, and after how many it is alike.
     slots
         ``(m, 2) int``: the slot of its shape that each end of an edge takes.
+    over
+        ``(n,) bool``: whether its shape is turned over at each vertex.
     turn
-        ``(n,) float``: the angle that maps its shape's directions to the vertex's.
+        ``(n,) float``: where its shape's first direction is there.
     directions
         Of each shape.
     refused
@@ -101,6 +104,7 @@ class Places:
     shape_of: Ints
     counts: Sequence[tuple[int, int]]
     slots: Ints
+    over: NDArray[np.bool_]
     turn: Floats
     directions: Sequence[Floats]
     refused: Sequence[Refused] = ()
@@ -121,11 +125,10 @@ def choose_keys(places: Places, parts: Callable[[Keys], int]) -> Keys:
     parts
         How many parts a choice needs.
     """
-    alike = _alike(places, places.shape_of, 1, parts) or _alike(
-        places, _turned_alike(places), 1, parts
-    )
-    if alike is not None:
-        return alike
+    for group in (places.shape_of, *_turned_alike(places)):
+        alike = _alike(places, group, 1, parts)
+        if alike is not None:
+            return alike
     few = _Few(places).chosen()
     several = _alike(places, places.shape_of, _KEYS, parts)
     return few if several is None or parts(few) <= parts(several) else several
@@ -137,10 +140,15 @@ def steps_of(angles: Floats | float, turn: float = 2 * math.pi) -> Ints:
     return np.asarray(steps % round(turn / (4 * ANGLE)))
 
 
-def _turned_alike(places: Places) -> Ints:
-    """A number for each vertex, the same for those of one shape that are turned alike."""
-    pairs = np.column_stack([places.shape_of, steps_of(places.turn)])
-    return np.asarray(np.unique(pairs, axis=0, return_inverse=True)[1]).ravel()
+def _turned_alike(places: Places) -> Iterator[Ints]:
+    """A number for each vertex, the same for joints of one shape with the same side up.
+
+    Then the same for those that are turned alike as well.
+    """
+    columns = [places.shape_of, places.over, steps_of(places.turn)]
+    for count in (2, 3):
+        alike = np.column_stack(columns[:count])
+        yield np.asarray(np.unique(alike, axis=0, return_inverse=True)[1]).ravel()
 
 
 def _alike(places: Places, group: Ints, most: int, parts: Callable[[Keys], int]) -> Keys | None:
@@ -300,8 +308,9 @@ class _Few:
 
     def _direction(self, vertex: int, slot: int) -> int:
         """Direction of a slot at a vertex, in steps."""
-        directions = self._places.directions[self._places.shape_of[vertex]]
-        return int(steps_of(self._places.turn[vertex] + directions[slot]))
+        direction = self._places.directions[self._places.shape_of[vertex]][slot]
+        way = -1 if self._places.over[vertex] else 1
+        return int(steps_of(self._places.turn[vertex] + way * direction))
 
     def _best(self, vertex: int, usual: Counter[tuple[int, int]]) -> int:
         """The slot for a lone key: not a refused one; as at most others; of a cap; the last."""

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
+from scadgen.frame.alike import Ends, alike_slots
 from scadgen.frame.graph import Frame
 from scadgen.frame.hosts import Hosted, Shape, hosted
 from scadgen.frame.keys import Places, Refused, choose_keys
 from scadgen.frame.sameness import Sameness
+from scadgen.joint.symmetry import Symmetry
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["Kind", "Kinds", "Shape", "choose_kinds"]
@@ -35,7 +39,7 @@ class Kind:
     caps: tuple[int, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Kinds:
     """What stands where.
 
@@ -45,8 +49,11 @@ class Kinds:
         Of all joints.
     kind_of
         ``(n,) int``: the kind of each vertex.
+    over
+        ``(n,) bool``: whether its kind is turned over there.
     turn
-        ``(n,) float``: the angle that maps its shape's directions to the vertex's.
+        ``(n,) float``: where its shape's first direction is there; the others follow it
+        counter-clockwise, or clockwise where it is turned over.
     slots
         ``(m, 2) int``: the slot of its shape that each end of an edge takes.
     """
@@ -54,6 +61,7 @@ class Kinds:
     shapes: tuple[Shape, ...]
     kinds: tuple[Kind, ...]
     kind_of: Ints
+    over: NDArray[np.bool_]
     turn: Floats
     slots: Ints
 
@@ -61,15 +69,50 @@ class Kinds:
         """The shape of a kind's joints."""
         return self.shapes[self.kinds[kind].shape]
 
-    def period(self, kind: int) -> int:
-        """Slots of a kind that differ by this are alike, and so are their keys."""
-        shape, keys = self.shape(kind), self.kinds[kind].keys
-        count = len(shape.directions)
-        return next(
-            turn
-            for turn in range(shape.period, count + 1, shape.period)
-            if {(slot + turn) % count for slot in keys} == set(keys)
+    @cached_property
+    def symmetries(self) -> tuple[Symmetry, ...]:
+        """Which slots of each kind are alike, keys and all."""
+        return tuple(
+            shape.symmetry.with_keys(kind.keys, shape.gaps)
+            for kind in self.kinds
+            for shape in [self.shapes[kind.shape]]
         )
+
+    @property
+    def most(self) -> int:
+        """Slots of the joint that has the most."""
+        return max(len(shape.directions) for shape in self.shapes)
+
+    def ends(self, edges: Ints, sockets: Sequence[int]) -> Ends:
+        """What the elements of some edges end in.
+
+        Parameters
+        ----------
+        edges
+            ``(m, 2) int``: the frame's.
+        sockets
+            For each kind a number under that of all kinds: what an element ends in at a key.
+
+        Returns
+        -------
+        ends
+            Connectors have the number of all kinds, and more than that by their kind times
+            `most` and their slot, the first of those that are alike.
+        """
+        kind = self.kind_of[edges]
+        first, over, either = alike_slots(self.symmetries, kind, self.slots)
+        keyed = np.zeros((len(self.kinds), self.most), dtype=bool)
+        for number, one in enumerate(self.kinds):
+            keyed[number, list(one.keys)] = True
+        split = keyed[kind, self.slots]
+        connectors = len(self.kinds) + kind * self.most + first
+        what = np.where(split, np.array(sockets)[kind], connectors)
+        return Ends(what, over ^ self.over[edges], either | split)
+
+    def directions(self, vertex: int) -> Floats:
+        """Where the connectors of a vertex point, by slot, in radians."""
+        own = self.shape(int(self.kind_of[vertex])).directions
+        return np.asarray(self.turn[vertex] + (-own if self.over[vertex] else own))
 
 
 def choose_kinds(
@@ -94,42 +137,44 @@ def choose_kinds(
     def gathered(keys: Sequence[Collection[int]]) -> Kinds:
         return _gathered(found, frame, keys)
 
-    counts = [(len(shape.directions), shape.period) for shape in found.shapes]
-    directions = [shape.directions for shape in found.shapes]
-    places = Places(frame, found.shape_of, counts, found.slots, found.turn, directions, refused)
+    places = Places(
+        frame,
+        found.shape_of,
+        [(shape.symmetry.count, shape.symmetry.period) for shape in found.shapes],
+        found.slots,
+        found.over,
+        found.turn,
+        [shape.directions for shape in found.shapes],
+        refused,
+    )
     return gathered(choose_keys(places, lambda keys: _parts(gathered(keys), frame, same)))
 
 
 def _parts(kinds: Kinds, frame: Frame, same: Sameness) -> int:
     """How many kinds of joints and of edge elements there are."""
-    kind = kinds.kind_of[frame.edges]
-    period = np.array([kinds.period(n) for n in range(len(kinds.kinds))])
-    ends = kind * (kinds.slots.max() + 1) + kinds.slots % period[kind]
+    # Sockets are those of a ring, which joints of one shape have alike.
+    ends, *_ = kinds.ends(frame.edges, [one.shape for one in kinds.kinds]).alike()
     length = np.array([edge.length for edge in same.edges])[same.edge_of]
-    elements = np.column_stack([np.sort(ends, axis=1), length])
-    return len(kinds.kinds) + len(np.unique(elements, axis=0))
+    return len(kinds.kinds) + len(np.unique(np.column_stack([ends, length]), axis=0))
 
 
 def _gathered(found: Hosted, frame: Frame, keys: Sequence[Collection[int]]) -> Kinds:
     """Turn each joint so that alike keys are in the same slots, and number the kinds."""
     shapes, shape_of = found.shapes, found.shape_of
-    turn, slots = found.turn.copy(), found.slots.copy()
+    over, turn, slots = found.over.copy(), found.turn.copy(), found.slots.copy()
     ends: list[list[tuple[int, int]]] = [[] for _ in shape_of]
     for edge, pair in enumerate(frame.edges):
         for end, vertex in enumerate(pair):
             ends[vertex].append((edge, end))
     chosen, taken = [], []
     for vertex, own in enumerate(keys):
-        shape = shapes[shape_of[vertex]]
-        count = len(shape.directions)
-        turned = {
-            tuple(sorted((slot - shift) % count for slot in own)): shift
-            for shift in range(0, count, shape.period)
-        }
-        best = min(turned)
-        turn[vertex] += shape.directions[turned[best]]
+        shape, way = shapes[shape_of[vertex]], -1 if over[vertex] else 1
+        best, first, mirrored = _first_keys(shape.symmetry, own)
+        turn[vertex] += way * shape.directions[first]
+        over[vertex] ^= mirrored
         for edge, end in ends[vertex]:
-            slots[edge, end] = (slots[edge, end] - turned[best]) % count
+            off = slots[edge, end] - first
+            slots[edge, end] = (-off if mirrored else off) % shape.symmetry.count
         chosen.append((int(shape_of[vertex]), best))
         taken.append({int(slots[edge, end]) for edge, end in ends[vertex]})
     known = sorted(set(chosen))
@@ -139,4 +184,28 @@ def _gathered(found: Hosted, frame: Frame, keys: Sequence[Collection[int]]) -> K
         used = set().union(*(taken[v] for v in np.flatnonzero(kind_of == number)))
         free = set(range(len(shapes[shape_number].directions))) - used
         kinds.append(Kind(shape_number, best, tuple(sorted(free))))
-    return Kinds(shapes, tuple(kinds), kind_of, turn, slots)
+    return Kinds(shapes, tuple(kinds), kind_of, over, turn, slots)
+
+
+def _first_keys(symmetry: Symmetry, keys: Collection[int]) -> tuple[tuple[int, ...], int, bool]:
+    """The least slots that keys have once their joint is turned so that it is itself.
+
+    Returns
+    -------
+    keys
+        Their slots then, ascending.
+    first
+        The slot that becomes 0.
+    mirrored
+        Whether the joint is turned over as well: slots count down from the first.
+    """
+    count, mirror = symmetry.count, symmetry.mirror
+    ways = [(first, 1) for first in range(0, count, symmetry.period)]
+    if mirror is not None:
+        ways += [((mirror + first) % count, -1) for first, _ in ways]
+    found = {
+        (first, way): tuple(sorted(way * (slot - first) % count for slot in keys))
+        for first, way in ways
+    }
+    first, way = min(found, key=lambda one: found[one])
+    return found[first, way], first, way < 0

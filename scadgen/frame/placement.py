@@ -41,3 +41,11 @@ class Placement:
     turn: float
     flip: bool
     role: str
+
+    @property
+    def turned_over(self) -> bool:
+        """Whether it lies with that face up that half B has up, and all others down.
+
+        A peg is alike on all sides.
+        """
+        return self.role != "peg" and self.flip != (self.role == "half_b")

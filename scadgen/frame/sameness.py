@@ -1,7 +1,8 @@
 """Which joints and which edges of a frame are the same part.
 
-Two joints are the same if one can be turned onto the other.  Two edges are the same if they
-are equally long and end in the same places of the same joints, one way round or the other.
+Two joints are the same if one can be turned onto the other, in the plane or by turning it over.
+Two edges are the same if they are equally long and end in the same places of the same joints,
+one way round or the other, one side up or the other.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scadgen.errors import InputError
+from scadgen.frame.alike import Ends, alike_slots
 from scadgen.frame.congruence import JointClass, congruent_joints
 from scadgen.frame.graph import Frame
 from scadgen.frame.planarity import where
@@ -48,6 +50,8 @@ class EdgeClass:
         Class of the joint at its first and second end.
     slots
         Its slot in that class there, the lowest of those that are alike.
+    over
+        Whether the joint at its second end is turned over, as seen from that at its first.
     edges
         ``(n,) int``: which edges, ascending.
     """
@@ -55,6 +59,7 @@ class EdgeClass:
     length: float
     joints: tuple[int, int]
     slots: tuple[int, int]
+    over: bool
     edges: Ints
 
 
@@ -68,11 +73,13 @@ class Sameness:
         Classes of joints, by number of edges, then by gaps.
     joint_of
         ``(n,) int``: class of each vertex.
+    over
+        ``(n,) bool``: whether the class is turned over to be the vertex's joint.
     turn
-        ``(n,) float``: the angle that maps the class's directions to the vertex's, from
-        0 to before 2 pi / symmetry; less than 0 by the tolerance at most.
+        ``(n,) float``: direction of the class's first edge there, from 0 to before a full turn
+        by the number of ways it can be turned onto itself; less than 0 by the tolerance at most.
     shift
-        ``(n,) int``: edge k of the class becomes slot ``(k + shift) % degree`` of the vertex.
+        ``(n,) int``: the vertex's slot that this edge takes.
     edges
         Classes of edges, by joints, slots and length.
     edge_of
@@ -87,6 +94,7 @@ class Sameness:
 
     joints: tuple[JointClass, ...]
     joint_of: Ints
+    over: NDArray[np.bool_]
     turn: Floats
     shift: Ints
     edges: tuple[EdgeClass, ...]
@@ -146,21 +154,25 @@ def sameness(
             f"{smallest / 4:.4g}, a quarter of the smallest gap"
         )
         raise InputError(msg)
-    joints, (joint_of, shift), (turn, errors) = congruent_joints(frame, angle_tolerance)
+    joints, (joint_of, over, shift), (turn, errors) = congruent_joints(frame, angle_tolerance)
     lengths, length_of = group_values(frame.lengths, length_tolerance)
-    period = np.array([j.period for j in joints])
-    kind = joint_of[frame.edges]
-    slot = (frame.slots - shift[frame.edges]) % frame.degree[frame.edges] % period[kind]
-    swapped = (kind[:, 0] > kind[:, 1]) | ((kind[:, 0] == kind[:, 1]) & (slot[:, 0] > slot[:, 1]))
-    kind[swapped], slot[swapped] = kind[swapped, ::-1], slot[swapped, ::-1]
-    keys, edge_of = np.unique(np.column_stack([kind, slot, length_of]), axis=0, return_inverse=True)
+    kind, way = joint_of[frame.edges], 1 - 2 * over
+    slot = way[frame.edges] * (frame.slots - shift[frame.edges]) % frame.degree[frame.edges]
+    first, turned, either = alike_slots([joint.symmetry for joint in joints], kind, slot)
+    most = int(frame.degree.max())
+    turned ^= over[frame.edges].astype(bool)
+    ends, swapped, _ = Ends(kind * most + first, turned, either).alike()
+    keys, edge_of = np.unique(np.column_stack([ends, length_of]), axis=0, return_inverse=True)
     members = _members(edge_of.ravel(), len(keys))
     edges = tuple(
-        EdgeClass(float(lengths[n]), (int(a), int(b)), (int(p), int(q)), which)
-        for (a, b, p, q, n), which in zip(keys, members, strict=True)
+        EdgeClass(float(lengths[n]), (a // most, b // most), (a % most, b % most), bool(o), which)
+        for (a, b, _, o, n), which in zip(keys.tolist(), members, strict=True)
     )
     off = np.abs(frame.lengths - lengths[length_of])
-    return Sameness(joints, joint_of, turn, shift, edges, edge_of.ravel(), swapped, errors, off)
+    return Sameness(
+        *(joints, joint_of, over.astype(bool), turn, shift),
+        *(edges, edge_of.ravel(), swapped, errors, off),
+    )
 
 
 def snap(frame: Frame, angle: float, length: float) -> Snapped:

@@ -15,6 +15,7 @@ from scadgen.joint.lattice import Lattice, directions_and_gaps, make_lattice, wi
 from scadgen.joint.pieces import SPLIT, halves
 from scadgen.joint.place import beside_walls, place
 from scadgen.joint.surface import Surface, half_turn, join, simplify
+from scadgen.joint.symmetry import Symmetry, lopsided
 from scadgen.joint.territory import belongs, share
 from scadgen.joint.tidy import corners_in_the_way, merge_short_sides
 from scadgen.joint.walls import Key, wedges
@@ -79,6 +80,8 @@ class Joint:
         Its site curves, one an edge.
     walls
         ``(k,) float``: angle from each edge to the wall after it.
+    alike
+        For each edge, the first that is alike, and whether it is turned over for it.
     connectors
         For each edge, its connector with the edge turned to +x.
     halves
@@ -90,6 +93,7 @@ class Joint:
     lattice: Lattice
     curves: tuple[SiteCurve, ...]
     walls: Floats
+    alike: tuple[tuple[int, bool], ...]
     connectors: tuple[Surface, ...]
     halves: tuple[tuple[Surface, Surface], ...]
 
@@ -98,10 +102,9 @@ def wall_angles(edges: Sequence[float], weave: Weave, keys: Collection[int]) -> 
     """Angle from each edge to the wall after it, ``(k,)``.
 
     Where the arms of a weave weave in a stretch, a wall beside a key is as near to it as that
-    allows, so that halves come out the same way whatever the gap; between two keys it is beside
-    the first.  So it is in a gap of more than half a turn: connectors that part at a wall far
-    across the ring would swing into each other.  All others are in the middle of their gaps, as
-    are all walls of other weaves.
+    allows, so that halves come out the same way whatever the gap; where neither edge has a better
+    claim it may be beside the first (see `lopsided`).  All others are in the middle of their gaps,
+    as are all walls of other weaves.
     """
     _, gaps = directions_and_gaps(edges)
     if weave.stretch is None:
@@ -109,7 +112,8 @@ def wall_angles(edges: Sequence[float], weave: Weave, keys: Collection[int]) -> 
     near = np.minimum(weave.stretch / (2 * weave.ring_ratio), gaps / 2)
     here = np.isin(np.arange(len(gaps)), list(keys))
     after = np.roll(here, -1)
-    return np.where(here | (~after & (gaps > np.pi)), near, np.where(after, gaps - near, gaps / 2))
+    first = here | lopsided(gaps, keys)
+    return np.where(first, near, np.where(after, gaps - near, gaps / 2))
 
 
 def site_curves(
@@ -170,7 +174,7 @@ def make_joint(
     ----------
     edges
         Directions of the edges, ascending, in [0, 2 pi), at least two.  What is alike when
-        the joint is turned, or turned over about an edge, is computed once.
+        the joint is turned, or turned over, is computed once.
     weave
         Its weave.
     detail
@@ -194,7 +198,8 @@ def make_joint(
     lattice, curves, at = fitted(edges, weave, detail, extra, keys)
     # From each edge to the wall after it, and from there to the next edge.
     steps = np.column_stack([at, directions_and_gaps(edges)[1] - at])
-    computed = range(_period(steps))
+    alike = _alike(steps)
+    computed = sorted({first for first, _ in alike})
     for edge in computed:
         check_footprint(lattice, curves, edge)
     lattice = without_corners(lattice, corners_in_the_way(lattice, curves))
@@ -208,30 +213,43 @@ def make_joint(
     walls = fanned(walls, position, curves)
     for index in np.ndindex(labels.shape):
         position["node", 0, index[0], index[1], index[2]] = lattice.nodes[index]
-    pairs = [halves(lattice, labels, walls, position, edge) for edge in computed]
-    pairs = [
-        (first, half_turn(first)) if _turns_over(steps, edge) else (first, second)
-        for edge, (first, second) in enumerate(pairs)
-    ]
-    connectors = tuple(simplify(join(first, second, SPLIT)) for first, second in pairs)
-    times = len(steps) // len(pairs)
+    pairs = {edge: halves(lattice, labels, walls, position, edge) for edge in computed}
+    for edge, (first, _) in pairs.items():
+        if _mirrored(steps, 2 * edge):
+            pairs[edge] = first, half_turn(first)
+    wholes = {edge: simplify(join(*pair, SPLIT)) for edge, pair in pairs.items()}
+    turned = {edge: half_turn(whole) for edge, whole in wholes.items()}
+    swapped = {edge: (half_turn(b), half_turn(a)) for edge, (a, b) in pairs.items()}
     return Joint(
-        lattice.edges, weave, lattice, curves, at, connectors * times, tuple(pairs * times)
+        lattice.edges,
+        weave,
+        lattice,
+        curves,
+        at,
+        alike,
+        tuple((turned if over else wholes)[edge] for edge, over in alike),
+        tuple((swapped if over else pairs)[edge] for edge, over in alike),
     )
 
 
-def _period(steps: Floats) -> int:
-    """How many edges there are before all steps come again."""
+def _alike(steps: Floats) -> tuple[tuple[int, bool], ...]:
+    """For each edge the first that is alike, and whether it is turned over for it."""
     count = len(steps)
     periods = (n for n in range(1, count + 1) if count % n == 0)
-    alike = (n for n in periods if np.allclose(steps, np.roll(steps, n, 0), rtol=0, atol=_ALIKE))
-    return next(alike)
+    period = next(n for n in periods if _same(steps, np.roll(steps, n, 0)))
+    mirror = next((c for c in range(period) if _mirrored(steps, c)), None)
+    symmetry = Symmetry(count, period, mirror)
+    return tuple(symmetry.alike(edge) for edge in range(count))
 
 
-def _turns_over(steps: Floats, edge: int) -> bool:
-    """Whether a half turn about an edge maps the joint onto itself."""
-    onwards = np.roll(steps, -edge, 0).ravel()
-    return bool(np.allclose(onwards, onwards[::-1], rtol=0, atol=_ALIKE))
+def _mirrored(steps: Floats, mirror: int) -> bool:
+    """Whether the joint turned over, edge s where ``mirror - s`` was, is itself."""
+    back = (mirror - 1 - np.arange(len(steps))) % len(steps)
+    return _same(steps, steps[back, ::-1])
+
+
+def _same(steps: Floats, others: Floats) -> bool:
+    return bool(np.allclose(steps, others, rtol=0, atol=_ALIKE))
 
 
 def check_footprint(lattice: Lattice, curves: Sequence[SiteCurve], edge: int) -> None:

@@ -1,15 +1,15 @@
 """Kits of any frame: a kind of joint for each set of angles and keys, an element for each edge's.
 
-Joints have letters.  A connector is named by its joint and its edge there, ``connector_A1``, and
-so are the halves it may be split into: ``half_A1``, and ``half_A1_over`` for half B where that is
-another part.  Edge elements are numbered.
+Joints have letters.  A connector is named by its joint and the first edge there that has it,
+``connector_A1``, and so are the halves it may be split into: ``half_A1``, and ``half_A1_over`` for
+half B where that is another part.  Edge elements are numbered.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from dataclasses import astuple, dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -24,6 +24,7 @@ from scadgen.frame.kinds import Kinds, choose_kinds
 from scadgen.frame.placement import Placement
 from scadgen.frame.planarity import corner
 from scadgen.frame.sameness import Sameness, joint_name, sameness
+from scadgen.joint.symmetry import Symmetry
 from scadgen.joint.weave import Weave, any_joint
 from scadgen.kit.apart import Apart
 from scadgen.kit.model import Joint, Kit
@@ -53,8 +54,47 @@ _MODEST = {"clearance": 0.06, "peg_clearance": 0.1, "peg_length": 1.5}
 #: What is added to a ring ratio until walls keep away from the ring's edges: they hardly move.
 _WIDER = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3)
 
-#: An end of an element: number of its kind of joint, slot there, and whether it is a socket.
-_End = tuple[int, int, bool]
+
+@dataclass(frozen=True, slots=True)
+class _End:
+    """An end of an element.
+
+    Parameters
+    ----------
+    number
+        Of its kind of joint.
+    slot
+        Whose connector it is; None if it is a socket.
+    over
+        Whether the connector is turned over.
+    """
+
+    number: int
+    slot: int | None
+    over: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Element:
+    """An edge element: what is at its ends, and its length in edge lengths."""
+
+    near: _End
+    far: _End
+    length: float
+
+    @property
+    def ends(self) -> tuple[_End, _End]:
+        """Both ends."""
+        return self.near, self.far
+
+
+@dataclass(frozen=True, slots=True)
+class _Laid:
+    """The element on an edge: its name, whether it is turned about, and over."""
+
+    name: str
+    swapped: bool
+    flipped: bool
 
 
 def build_frame(
@@ -196,6 +236,35 @@ def _wanted(request: Request, frame: Frame, kinds: Kinds, number: int, weave: We
     )
 
 
+def _check_alike(pieces: Pieces, symmetry: Symmetry) -> None:
+    """See to it that what is alike by angles and keys is one part.
+
+    Raises
+    ------
+    InvariantError
+        It is not.
+    """
+    for slot, piece in enumerate(pieces.connectors):
+        first, over = symmetry.alike(slot)
+        other = pieces.connectors[first]
+        same = (other.turned_over() if over else other).surface.points
+        if not np.array_equal(same, piece.surface.points):
+            msg = f"connectors of edges that are alike are the same: {slot} and {first} are not"
+            raise InvariantError(msg)
+
+
+def _firsts(values: Sequence[Hashable]) -> list[int]:
+    """For each value, which is the first that is the same."""
+    return [values.index(value) for value in values]
+
+
+def _rounded(key: Key) -> tuple[Hashable, ...]:
+    """All that a key is; the same for those that differ by rounding."""
+    return tuple(
+        round(value, _DECIMALS) if isinstance(value, float) else value for value in astuple(key)
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class _Build:
     """What a frame's parts and placements are made from."""
@@ -211,22 +280,35 @@ class _Build:
         return round(_shortest(self.same), _LENGTH_DECIMALS)
 
     @cached_property
-    def elements(self) -> dict[tuple[_End, _End, float], str]:
-        """Name of each kind of edge element, by its ends and its length in edge lengths."""
-        found = {self._element(edge)[0] for edge in range(len(self.frame.edges))}
-        return {what: f"edge_{n}" for n, what in enumerate(sorted(found), 1)}
+    def elements(self) -> dict[str, _Element]:
+        """The kinds of edge elements by name."""
+        return self._elements[0]
 
-    def _element(self, edge: int) -> tuple[tuple[_End, _End, float], bool]:
-        """What an edge's element is, and whether it stands the other way round."""
-        length = self.same.edges[self.same.edge_of[edge]].length / self.unit
-        near, far = (self._end(edge, end) for end in (0, 1))
-        swapped = far < near
-        return ((far, near) if swapped else (near, far)) + (round(length, _DECIMALS),), swapped
+    @cached_property
+    def _elements(self) -> tuple[dict[str, _Element], list[_Laid]]:
+        """The kinds of edge elements by name, and which is laid on each edge."""
+        sockets = _firsts([_rounded(one.key) for one in self.pieces])
+        ends, swapped, flipped = self.kinds.ends(self.frame.edges, sockets).alike()
+        lengths = np.array([edge.length for edge in self.same.edges]) / self.unit
+        rows = np.column_stack([ends, lengths.round(_DECIMALS)[self.same.edge_of]])
+        found, which = np.unique(rows, axis=0, return_inverse=True)
+        names = [f"edge_{n}" for n in range(1, len(found) + 1)]
+        elements = (
+            _Element(self._end(int(near), over[0]), self._end(int(far), over[1]), length)
+            for near, far, *over, length in found.tolist()
+        )
+        laid = zip(which.ravel().tolist(), swapped.tolist(), flipped.tolist(), strict=True)
+        return (
+            dict(zip(names, elements, strict=True)),
+            [_Laid(names[n], about, over) for n, about, over in laid],
+        )
 
-    def _end(self, edge: int, end: int) -> _End:
-        number = int(self.kinds.kind_of[self.frame.edges[edge, end]])
-        slot = int(self.kinds.slots[edge, end])
-        return number, slot % self.kinds.period(number), slot in self.kinds.kinds[number].keys
+    def _end(self, what: int, over: float) -> _End:
+        """What `Kinds.ends` has a number for."""
+        count = len(self.kinds.kinds)
+        if what < count:
+            return _End(what, None, over=False)
+        return _End(*divmod(what - count, self.kinds.most), over=bool(over))
 
     def limits(self) -> tuple[Range, ...]:
         """What the live parameters may be, so that all joints and elements are sound."""
@@ -244,8 +326,8 @@ class _Build:
         hole = min(one.hole(edge) for one in self.pieces for edge in one.halves)
         of_joints = ranges(tightest, clearance, hole)
         of_edges = [
-            edge_range((keys[a], near), (keys[b], far), length)
-            for (a, _, near), (b, _, far), length in sorted(self.elements)
+            edge_range([(keys[end.number], end.slot is None) for end in one.ends], one.length)
+            for one in self.elements.values()
         ]
         return (
             *(limit for limit in of_joints if limit.parameter != "edge_length"),
@@ -255,20 +337,19 @@ class _Build:
     def parts(self) -> dict[str, AffineSolid]:
         """Every part: the elements, the connectors, the halves, the pegs."""
         solids = [
-            part(name, self._surface(near), self._surface(far), {"edge_length": length})
-            for (near, far, length), name in self.elements.items()
+            part(name, self._surface(one.near), self._surface(one.far), {"edge_length": one.length})
+            for name, one in self.elements.items()
         ]
+        symmetries = self.kinds.symmetries
         for number, one in enumerate(self.pieces):
-            for slot in range(self.kinds.period(number)):
+            _check_alike(one, symmetries[number])
+            for slot in symmetries[number].firsts:
                 solid = connector(one.key, one.connectors[slot])
                 solids.append(replace(solid, name=self._name("connector", number, slot)))
         for number, one in enumerate(self.pieces):
-            period = self.kinds.period(number)
-            for slot, (first, second) in one.halves.items():
-                if slot >= period:
-                    continue
+            for slot in sorted({symmetries[number].alike(slot)[0] for slot in one.halves}):
                 names = self._halves(number, slot)
-                for name, piece in dict(zip(names, (first, second), strict=True)).items():
+                for name, piece in dict(zip(names, one.halves[slot], strict=True)).items():
                     solids.append(replace(half(one.key, piece), name=name))
         solids += [
             replace(peg(self.pieces[number].key), name=self._peg(number))
@@ -277,24 +358,27 @@ class _Build:
         return {solid.name: solid for solid in solids}
 
     def _surface(self, end: _End) -> End:
-        number, slot, socket = end
-        one = self.pieces[number]
-        return key_end(one.key) if socket else connector_end(one.key, one.connectors[slot])
+        one = self.pieces[end.number]
+        if end.slot is None:
+            return key_end(one.key)
+        whole = one.connectors[end.slot]
+        return connector_end(one.key, whole.turned_over() if end.over else whole)
 
     def _name(self, what: str, number: int, slot: int) -> str:
-        return f"{what}_{joint_name(number)}{slot % self.kinds.period(number) + 1}"
+        return f"{what}_{joint_name(number)}{self.kinds.symmetries[number].alike(slot)[0] + 1}"
 
     def _halves(self, number: int, slot: int) -> tuple[str, str]:
         """Names of half A and half B, the same where they are the same part."""
+        slot, over = self.kinds.symmetries[number].alike(slot)
         first, second = self.pieces[number].halves[slot]
         name = self._name("half", number, slot)
-        return name, name if first is second else f"{name}_over"
+        names = name, name if first is second else f"{name}_over"
+        return names[::-1] if over else names
 
     def _peg(self, number: int) -> str:
         """Name of a joint's peg: those that start in the same place are the same."""
-        pads = [round(one.key.pad, _DECIMALS) for one in self.pieces]
-        alike = pads.index(pads[number])
-        return "peg" if len(set(pads)) == 1 else f"peg_{joint_name(alike)}"
+        alike = _firsts([round(one.key.pad, _DECIMALS) for one in self.pieces])
+        return f"peg_{joint_name(alike[number])}" if any(alike) else "peg"
 
     def joint(self, number: int) -> Joint:
         """A kind of joint, turned so that its first key is along +x."""
@@ -304,6 +388,7 @@ class _Build:
         turns = np.degrees(
             (np.roll(shape.directions, -first) - shape.directions[first]) % (2 * np.pi)
         )
+        symmetry = self.kinds.symmetries[number]
         return Joint(
             name=joint_name(number) if len(self.kinds.kinds) > 1 else "",
             turns=tuple(turns.round(_DECIMALS).tolist()),
@@ -312,48 +397,57 @@ class _Build:
             connectors=tuple(
                 self._name("connector", number, slot + first) for slot in range(count)
             ),
+            over=tuple(slot for slot in range(count) if symmetry.alike(slot + first)[1]),
             weave=one.weave.as_dict(),
             pieces=tuple(
-                self._standing(number, (0.0, 0.0), -shape.directions[first], range(count))
+                self._standing(
+                    number, (0.0, 0.0), shape.directions - shape.directions[first], range(count)
+                )
             ),
             figures=one.figures(),
         )
 
     def _standing(
-        self, number: int, at: tuple[float, float], turn: float, caps: Iterable[int]
+        self,
+        number: int,
+        at: tuple[float, float],
+        directions: Floats,
+        caps: Iterable[int],
+        *,
+        over: bool = False,
     ) -> Iterator[Placement]:
         """The pieces of a joint where it stands: halves, connectors without a tube, pegs."""
-        kind, directions = self.kinds.kinds[number], self.kinds.shape(number).directions
-        degrees = (np.degrees(turn + directions).round(_DECIMALS) % 360).tolist()
+        kind, symmetry = self.kinds.kinds[number], self.kinds.symmetries[number]
+        degrees = (np.degrees(directions).round(_DECIMALS) % 360).tolist()
         for slot in kind.keys:
             for name, flip, role in zip(
-                self._halves(number, slot), (False, True), ("half_a", "half_b"), strict=True
+                self._halves(number, slot), (over, not over), ("half_a", "half_b"), strict=True
             ):
                 yield Placement(name, at, degrees[slot], flip, role)
         first = kind.keys[0]
-        for slot in sorted(set(caps) - set(kind.keys), key=lambda s: (s - first) % len(directions)):
-            name = self._name("connector", number, slot)
-            yield Placement(name, at, degrees[slot], flip=False, role="cap")
+        for slot in sorted(set(caps) - set(kind.keys), key=lambda s: (s - first) % symmetry.count):
+            name, flip = self._name("connector", number, slot), symmetry.alike(slot)[1]
+            yield Placement(name, at, degrees[slot], flip != over, role="cap")
         for slot in kind.keys:
-            yield Placement(self._peg(number), at, degrees[slot], flip=False, role="peg")
+            yield Placement(self._peg(number), at, degrees[slot], over, role="peg")
 
     def placements(self) -> Iterator[Placement]:
         """Where everything stands: the elements, then the pieces of each joint."""
         vertices = (self.frame.vertices / self.unit).round(_DECIMALS) + 0.0
+        directions = [self.kinds.directions(vertex) for vertex in range(len(vertices))]
         used: list[set[int]] = [set() for _ in vertices]
-        for edge, pair in enumerate(self.frame.edges):
-            what, swapped = self._element(edge)
-            for end, vertex in enumerate(pair):
-                used[vertex].add(int(self.kinds.slots[edge, end]))
-            vertex, slot = int(pair[int(swapped)]), int(self.kinds.slots[edge, int(swapped)])
-            shape = self.kinds.shape(int(self.kinds.kind_of[vertex]))
-            turn = float(np.degrees(self.kinds.turn[vertex] + shape.directions[slot]))
-            role = "cross" if what[0][2] or what[1][2] else "row"
+        for pair, slots, laid in zip(
+            self.frame.edges.tolist(), self.kinds.slots.tolist(), self._elements[1], strict=True
+        ):
+            for vertex, slot in zip(pair, slots, strict=True):
+                used[vertex].add(slot)
+            vertex, slot = pair[laid.swapped], slots[laid.swapped]
+            turn = round(float(np.degrees(directions[vertex][slot])), _DECIMALS) % 360
+            ends = self.elements[laid.name].ends
+            role = "cross" if any(end.slot is None for end in ends) else "row"
             at = (float(vertices[vertex, 0]), float(vertices[vertex, 1]))
-            yield Placement(
-                self.elements[what], at, round(turn, _DECIMALS) % 360, flip=False, role=role
-            )
+            yield Placement(laid.name, at, turn, laid.flipped, role)
         for vertex, (x, y) in enumerate(vertices.tolist()):
-            number = int(self.kinds.kind_of[vertex])
-            caps = set(range(len(self.kinds.shape(number).directions))) - used[vertex]
-            yield from self._standing(number, (x, y), float(self.kinds.turn[vertex]), caps)
+            number, over = int(self.kinds.kind_of[vertex]), bool(self.kinds.over[vertex])
+            caps = set(range(len(directions[vertex]))) - used[vertex]
+            yield from self._standing(number, (x, y), directions[vertex], caps, over=over)

@@ -79,6 +79,7 @@ def _kit(pieces: Pieces, request: Request) -> Kit:
         keys=(0,),
         caps=(),
         connectors=("connector",) * count,
+        over=(),
         weave=request.chosen_weave.as_dict(),
         pieces=joint(count, request.key),
         figures=pieces.figures(),

@@ -86,6 +86,8 @@ class Joint:
         Which of the edges have no tube wherever this joint stands.
     connectors
         The part that is each edge's whole connector.
+    over
+        Which of the edges have that part turned over.
     weave
         Name of the weave and its parameters, as `Weave.as_dict` gives them.
     pieces
@@ -104,6 +106,7 @@ class Joint:
     keys: tuple[int, ...]
     caps: tuple[int, ...]
     connectors: tuple[str, ...]
+    over: tuple[int, ...]
     weave: Mapping[str, float | int | str]
     pieces: tuple[Placement, ...]
     figures: Mapping[str, float]

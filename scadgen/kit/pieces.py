@@ -56,7 +56,8 @@ class Pieces:
     key
         What its keys are like.
     connectors
-        Of each edge; in a regular joint one and the same.
+        Of each edge; in a regular joint one and the same.  Where it is another edge's turned
+        over, it is that to the last digit.
     halves
         Of each edge that is a key's, half A, and half B turned over about its edge, which
         are the same where the joint is alike on both sides of it.
@@ -115,9 +116,7 @@ class _Tried:
     def pieces(self) -> Pieces:
         """The pieces with all that is to be known about them."""
         made = self.joint
-        edges = sorted(
-            {n for n, piece in enumerate(self.connectors) if piece in self.connectors[n:]}
-        )
+        edges = sorted({edge for edge, _ in made.alike})
         return Pieces(
             weave=made.weave,
             key=self.key,
@@ -202,18 +201,27 @@ def best_pieces(
 def _tried(made: Joint, style: str, extra: int, keys: Sequence[int], *, bored: bool) -> _Tried:
     """The pieces of a joint, and the clearance up to which they are sound."""
     key = _key(made, style, keys, bored=bored)
-    over = {edge: _turned_over(*made.halves[edge]) for edge in keys}
-    wholes = list(dict.fromkeys(made.connectors))
+    firsts = sorted({edge for edge, _ in made.alike})
+    over = {edge: _turned_over(*made.halves[edge]) for edge in {made.alike[n][0] for n in keys}}
     split = list(dict.fromkeys(itertools.chain(*over.values())))
-    surfaces = [*((surface, ()) for surface in wholes), *((surface, (SPLIT,)) for surface in split)]
+    surfaces = [
+        *((made.connectors[edge], ()) for edge in firsts),
+        *((surface, (SPLIT,)) for surface in split),
+    ]
     piece = {
         surface: Piece(surface, displacement, _REST)
         for (surface, _), displacement in zip(surfaces, recede(surfaces), strict=True)
     }
-    connectors = tuple(piece[surface] for surface in made.connectors)
-    halves = {edge: (piece[first], piece[second]) for edge, (first, second) in over.items()}
+    wholes = {edge: piece[made.connectors[edge]] for edge in firsts}
+    turned = {edge: whole.turned_over() for edge, whole in wholes.items()}
+    connectors = tuple((turned if flip else wholes)[edge] for edge, flip in made.alike)
+    halves = {}
+    for edge in keys:
+        first, flip = made.alike[edge]
+        half_a, half_b = (piece[surface] for surface in over[first])
+        halves[edge] = (half_b, half_a) if flip else (half_a, half_b)
     solids = itertools.chain(
-        (connector(key, piece[surface]) for surface in wholes),
+        (connector(key, whole) for whole in wholes.values()),
         (half(key, piece[surface]) for surface in split),
     )
     limit = _TRIED

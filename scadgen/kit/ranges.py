@@ -81,18 +81,18 @@ def ranges(key: Key, clearance_limit: float, hole: float) -> tuple[Range, ...]:
     return tuple(found)
 
 
-def edge_range(near: tuple[Key, bool], far: tuple[Key, bool], times: float) -> Range:
+def edge_range(ends: Iterable[tuple[Key, bool]], times: float) -> Range:
     """Of the edge length, for an element that is some times as long.
 
     Parameters
     ----------
-    near, far
-        The keys of the joints at its ends, and whether it has a socket there.
+    ends
+        The key of the joint at each end, and whether it has a socket there.
     times
         Its length in edge lengths.
     """
     sides, others = TUBE, dict.fromkeys(("clearance", "peg_length", "peg_clearance"), 0.0)
-    for key, socket in (near, far):
+    for key, socket in ends:
         sides += key.pad if socket else key.tube_start
         for name in ("peg_length", "peg_clearance") if socket else ("clearance",):
             others[name] += 1.0

@@ -59,7 +59,7 @@ def _check_names(kit: Kit) -> None:
 def _check_joint(one: Joint) -> None:
     """Refuse a kind of joint whose lists do not belong together."""
     count = len(one.turns)
-    if len(one.connectors) != count or not {*one.keys, *one.caps} <= {*range(count)}:
+    if len(one.connectors) != count or not {*one.keys, *one.caps, *one.over} <= {*range(count)}:
         msg = f"{one.title}: its lists do not belong together"
         raise ValueError(msg)
     _check_ways(one)

@@ -32,7 +32,7 @@ from scadgen.solid.mesh import edge_faults
 __all__ = ["FORMAT", "VERSION", "dumps", "load", "loads", "summary"]
 
 FORMAT = "scadgen-kit"
-VERSION = 2
+VERSION = 3
 
 
 def dumps(kit: Kit) -> str:
@@ -97,6 +97,7 @@ def _joint_entry(joint: Joint, *, ways: bool) -> dict[str, Any]:
         "keys": list(joint.keys),
         "caps": list(joint.caps),
         "connectors": list(joint.connectors),
+        "over": list(joint.over),
         "weave": dict(joint.weave),
         "pieces": [_placement(p) for p in joint.pieces],
         "figures": dict(joint.figures),
@@ -265,6 +266,7 @@ def _read_joint(entry: Mapping[str, Any]) -> Joint:
         keys=tuple(entry["keys"]),
         caps=tuple(entry["caps"]),
         connectors=tuple(entry["connectors"]),
+        over=tuple(entry["over"]),
         weave=entry["weave"],
         pieces=tuple(map(_read_placement, entry["pieces"])),
         figures=entry["figures"],

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from scadgen.interlock.path import Path
+from scadgen.plan.standing import Origin
 
 __all__ = ["Choice", "cut_ways", "inverse"]
 
@@ -27,25 +29,28 @@ class Choice:
         Number of the joint.
     path
         A way, in mm, its origin at the joint.
-    at, turn
-        Where that is, in edge lengths, and how it is turned, in degrees.
+    origin
+        Where that is in the frame.
     """
 
     parts: frozenset[int]
     joint: int
     path: Path
-    at: tuple[float, float]
-    turn: float
+    origin: Origin
 
 
-def cut_ways(path: Path) -> Iterator[tuple[Path, float]]:
-    """A way, whole and cut short, and whether to go up or down after it: 1 or -1."""
+def cut_ways(path: Path, up: float) -> Iterator[tuple[Path, float]]:
+    """A way, whole and cut short, and where to go after it along its z: 1 or -1.
+
+    Where it has gone neither way, that is as `up` says first.
+    """
     poses = path.poses
     for end in dict.fromkeys(max(1, round(share * len(poses))) for share in _SHARES):
         last = poses[end - 1]
         high = float((last[:3, :3] @ path.middle + last[:3, 3])[2])
-        for up in (1.0, -1.0) if high >= 0 else (-1.0, 1.0):
-            yield Path(poses[:end], path.middle), up
+        first = math.copysign(1.0, high) if high else up
+        for way in (first, -first):
+            yield Path(poses[:end], path.middle), way
 
 
 def inverse(path: Path) -> Path:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from scadgen.interlock.path import Path
-from scadgen.plan.standing import Standing
+from scadgen.plan.standing import Origin, Standing
 
 __all__ = ["Move", "Plan", "Step"]
 
@@ -23,8 +23,8 @@ class Move:
         Number of the joint at which it goes in.
     way
         Number of its way out in the plan's ways; backwards it is the way in.
-    at, turn
-        Where that way's origin stands, in edge lengths, and how it is turned, in degrees.
+    origin
+        Where that way's coordinates are in the frame.
     gap
         Smallest gap on the way, in mm; 0 if it is not proved.
     reason
@@ -34,8 +34,7 @@ class Move:
     parts: tuple[int, ...]
     joint: int
     way: int
-    at: tuple[float, float]
-    turn: float
+    origin: Origin
     gap: float
     reason: str
 

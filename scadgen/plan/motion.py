@@ -63,11 +63,13 @@ def motion_of(plan: Plan, move: Move) -> Motion:
     far = np.linalg.norm(gone, axis=1)
     x, y, z = gone[int(np.argmax(far >= _LAST * side))] if far.max() >= _LAST * side else gone[-1]
     flat = np.hypot(x, y) > _FLAT * abs(z)
-    rise = float(gone[-1, 2])
+    rise = move.origin.sign * float(gone[-1, 2])
     spin = np.linalg.norm(way.steps()[:, 3:], axis=1).max()
     return Motion(
         above=int(np.sign(rise)) if abs(rise) >= _RISE * side else 0,
-        towards=float(np.degrees(np.arctan2(-y, -x)) + move.turn) % 360 if flat else None,
+        towards=move.origin.direction(float(np.degrees(np.arctan2(-y, -x)))) % 360
+        if flat
+        else None,
         tilted=bool(np.degrees(spin) >= _TILT),
     )
 

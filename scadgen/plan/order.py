@@ -118,7 +118,7 @@ class _Planner:
                     site, way = self._standing.sites[number], queue.pop(0)
                     parts = frozenset(site.parts[n] for n in way.moving)
                     path = way.path.scaled(self._side)
-                    choice = Choice(parts, number, path, site.at, site.turn)
+                    choice = Choice(parts, number, path, site.origin)
                     wave.append(self._lifted(choice, search=True))
             self._take(wave, f"{what} out")
             self._steps.append(Step(what, tuple(wave)))
@@ -181,8 +181,8 @@ class _Planner:
         moving = sorted(choice.parts)
 
         def ways(path: Path) -> Iterator[Path]:
-            for cut, up in cut_ways(path):
-                yield self._prover.lifted(cut, moving, choice.at, choice.turn, up)
+            for cut, up in cut_ways(path, choice.origin.sign):
+                yield self._prover.lifted(cut, moving, choice.origin, up)
 
         move = self._tried(choice, ways(choice.path))
         if search and not move.proved:
@@ -200,7 +200,7 @@ class _Planner:
             self._say(self._share, f"proving joint {choice.joint + 1}")
         tried: list[Found] = []
         for way in ways:
-            found = self._prover.proved(way, moving, rest, choice.at, choice.turn)
+            found = self._prover.proved(way, moving, rest, choice.origin)
             if found.blocking is None:
                 return self._move(choice, found)
             tried.append(found)
@@ -213,7 +213,7 @@ class _Planner:
             x, y = self._unit * np.array(place.at)
             reason = f"no way is proved past {place.part} at {x:.4g}, {y:.4g}"
         parts = tuple(sorted(choice.parts))
-        return Move(parts, choice.joint, found.way, choice.at, choice.turn, found.gap, reason)
+        return Move(parts, choice.joint, found.way, choice.origin, found.gap, reason)
 
     def _table(self, parts: Iterable[int]) -> set[int]:
         """All that these parts are with."""

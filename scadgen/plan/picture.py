@@ -168,11 +168,15 @@ class _Page:
             else:
                 named += [(self._name(part), shown.middle(part), part) for part in move.parts]
         for words, place, part in sorted(named, key=lambda one: one[2]):
-            on = part in self._plan.standing.elements
-            yield self._labels.put(words, self._on_page(place), on=on)
+            on, own = part in self._plan.standing.elements, words == self._name(part)
+            look = "over" if own and self._turned_over(part) else ""
+            yield self._labels.put(words, self._on_page(place), on=on, look=look)
 
     def _name(self, part: int) -> str:
         return self._plan.standing.kit.placements[part].part
+
+    def _turned_over(self, part: int) -> bool:
+        return self._plan.standing.kit.placements[part].turned_over
 
     def _meant(self) -> Iterator[str]:
         """What there is on the page, as the legend calls it."""
@@ -184,5 +188,8 @@ class _Page:
             yield ("", "above", "below")[motion.above]
             if motion.towards is not None:
                 yield "along"
+        named = shown.moving | (self._plan.first() if self._number == 1 else frozenset())
+        if any(map(self._turned_over, named)):
+            yield "over"
         if any(site.kind.name for site in self._plan.standing.sites):
             yield "kind"

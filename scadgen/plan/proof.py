@@ -24,7 +24,7 @@ from scadgen.frame.placement import Placement
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.path import Path
 from scadgen.kit.ways import WAY_DECIMALS
-from scadgen.plan.standing import Standing
+from scadgen.plan.standing import Origin, Standing
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.gap import solid
 
@@ -47,6 +47,10 @@ _STEP = 0.5
 
 #: How far above all others a part that is lifted ends, in sides.
 _ABOVE = 0.1
+
+
+#: The frame's own coordinates.
+_FRAME = Origin((0.0, 0.0), 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +114,7 @@ class Prover:
         widths = {}
         for number, place in enumerate(self._standing.kit.placements):
             if place.part not in widths:
-                points = self._body(place).points
+                points = self._body(place, _FRAME).points
                 along = points[:, 0].copy()
                 if number in self._standing.elements:
                     length = self._unit * self._standing.length(number)
@@ -127,26 +131,24 @@ class Prover:
             self.ways.append(Path.through(written[:-1], written[-1, :3]))
         return self._numbers[key]
 
-    def mesh(self, part: int, at: tuple[float, float], turn: float) -> Mesh:
+    def mesh(self, part: int, origin: Origin) -> Mesh:
         """A part's mesh where it stands as a way sees it, in mm."""
         place = self._standing.kit.placements[part]
-        pose = self._pose(place, at, turn)
+        pose = self._pose(place, origin)
         triangles = self._standing.kit.parts[place.part].triangles
-        return self._body(place).points @ pose[:3, :3].T + pose[:3, 3], triangles
+        return self._body(place, origin).points @ pose[:3, :3].T + pose[:3, 3], triangles
 
-    def place(self, part: int, at: tuple[float, float], turn: float) -> tuple[str, bool, bytes]:
+    def place(self, part: int, origin: Origin) -> tuple[str, bool, bytes]:
         """What a part is and where it stands as a way sees it: the same for what is alike."""
         place = self._standing.kit.placements[part]
-        return place.part, place.flip, self._pose(place, at, turn).tobytes()
+        return place.part, place.flip != origin.over, self._pose(place, origin).tobytes()
 
-    def lifted(
-        self, path: Path, moving: Sequence[int], at: tuple[float, float], turn: float, up: float
-    ) -> Path:
+    def lifted(self, path: Path, moving: Sequence[int], origin: Origin, up: float) -> Path:
         """A way, and then straight up, or down, out of the plane of the frame."""
         last = path.poses[-1]
         low = math.inf
         for part in moving:
-            points = self._points(part, at, turn) @ last[:3, :3].T + last[:3, 3]
+            points = self._points(part, origin) @ last[:3, :3].T + last[:3, 3]
             low = min(low, float((up * points[:, 2]).min()))
         ends = self._side * (0.5 + _ABOVE)
         if low >= ends:
@@ -162,48 +164,45 @@ class Prover:
         path: Path,
         moving: Sequence[int],
         rest: Iterable[int],
-        at: tuple[float, float],
-        turn: float,
+        origin: Origin,
     ) -> Found:
         """Whether some parts get out on a way, past the rest.
 
         Parameters
         ----------
         path
-            The way, in mm, its origin at `at`; at its end they are clear of all.
+            The way, in mm; at its end they are clear of all.
         moving
             Numbers of the parts that move as one.
         rest
             Numbers of all that is there.
-        at, turn
-            Where the way's origin stands, in edge lengths, and how it is turned, in degrees.
+        origin
+            Where the way's coordinates are in the frame.
         """
         way = self.number(path)
         worst = math.inf
         others = np.array(sorted(set(rest) - set(moving)), dtype=np.int64)
         for part in moving:
-            for other in self._near(way, part, others, at, turn):
-                gap = self._gap(way, part, other, at, turn)
+            for other in self._near(way, part, others, origin):
+                gap = self._gap(way, part, other, origin)
                 if not gap > 0:
                     return Found(way, 0.0, other)
                 worst = min(worst, gap)
         return Found(way, worst, None)
 
-    def _near(
-        self, way: int, part: int, others: Ints, at: tuple[float, float], turn: float
-    ) -> list[int]:
+    def _near(self, way: int, part: int, others: Ints, origin: Origin) -> list[int]:
         """Those of some parts that a part may come near on a way."""
-        aside = self._aside(way, part, at, turn)
+        aside = self._aside(way, part, origin)
         outlines = np.array(self._outlines, dtype=object)[others]
         away = shapely.distance(outlines, self._outlines[part])
         limit = aside + self._widths[part] + self._widths[others]
         return [int(n) for n in others[away < limit]]
 
-    def _aside(self, way: int, part: int, at: tuple[float, float], turn: float) -> float:
+    def _aside(self, way: int, part: int, origin: Origin) -> float:
         """How far a part goes aside on a way at most, in mm: not up, which brings nothing near."""
-        key = way, *self.place(part, at, turn)
+        key = way, *self.place(part, origin)
         if key not in self._asides:
-            path, points = self.ways[way], self._points(part, at, turn)
+            path, points = self.ways[way], self._points(part, origin)
             reach = float(np.linalg.norm(points - path.middle, axis=1).max())
             step = _STEP * self._side
             poses = path.dense(reach, step)
@@ -212,40 +211,42 @@ class Prover:
             self._asides[key] = far + step  # between two poses it may go on, but no farther
         return self._asides[key]
 
-    def _points(self, part: int, at: tuple[float, float], turn: float) -> Floats:
+    def _points(self, part: int, origin: Origin) -> Floats:
         """Corners of a part's hull in the way's coordinates, in mm."""
         place = self._standing.kit.placements[part]
-        pose = self._pose(place, at, turn)
-        return self._body(place).hull @ pose[:3, :3].T + pose[:3, 3]
+        pose = self._pose(place, origin)
+        return self._body(place, origin).hull @ pose[:3, :3].T + pose[:3, 3]
 
-    def _body(self, place: Placement) -> _Body:
-        key = place.part, place.flip
+    def _body(self, place: Placement, origin: Origin) -> _Body:
+        """A part at its own origin, turned over if it is so as a way sees it."""
+        key = place.part, place.flip != origin.over
         if key not in self._bodies:
             kit = self._standing.kit
-            own = Placement(place.part, (0.0, 0.0), 0.0, place.flip, place.role)
+            own = Placement(place.part, (0.0, 0.0), 0.0, key[1], place.role)
             self._bodies[key] = _Body(stand_at(kit.parts[place.part], own, kit.values))
         return self._bodies[key]
 
-    def _pose(self, place: Placement, at: tuple[float, float], turn: float) -> Floats:
-        """Where a part stands as a way sees it, rounded so that what is alike is the same."""
-        back = math.radians(-turn)
-        off = self._unit * (np.array(place.at) - np.array(at))
+    def _pose(self, place: Placement, origin: Origin) -> Floats:
+        """Where a part's body is as a way sees it, rounded so that what is alike is the same."""
+        back = math.radians(-origin.turn)
+        off = self._unit * (np.array(place.at) - np.array(origin.at))
         x = math.cos(back) * off[0] - math.sin(back) * off[1]
-        y = math.sin(back) * off[0] + math.cos(back) * off[1]
-        angle = math.radians(round((place.turn - turn) % 360, _DECIMALS) % 360)
+        y = origin.sign * (math.sin(back) * off[0] + math.cos(back) * off[1])
+        turn = origin.sign * (place.turn - origin.turn)
+        angle = math.radians(round(turn % 360, _DECIMALS) % 360)
         c, s = math.cos(angle), math.sin(angle)
         pose = np.eye(4)
         pose[:2, :2] = [[c, -s], [s, c]]
         pose[:2, 3] = round(x, _DECIMALS) + 0.0, round(y, _DECIMALS) + 0.0
         return pose
 
-    def _gap(self, way: int, part: int, other: int, at: tuple[float, float], turn: float) -> float:
+    def _gap(self, way: int, part: int, other: int, origin: Origin) -> float:
         """Smallest gap of two parts while one moves, 0 if it is not proved."""
-        key = way, self.place(part, at, turn), self.place(other, at, turn)
+        key = way, self.place(part, origin), self.place(other, origin)
         if key not in self.known:
             mover, stays = (self._standing.kit.placements[n] for n in (part, other))
-            bodies = self._body(mover), self._body(stays)
-            places = self._pose(mover, at, turn), self._pose(stays, at, turn)
+            bodies = self._body(mover, origin), self._body(stays, origin)
+            places = self._pose(mover, origin), self._pose(stays, origin)
             self.known[key] = self._narrowest(self.ways[way], bodies, places)
         return self.known[key]
 

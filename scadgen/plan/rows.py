@@ -9,7 +9,7 @@ import numpy as np
 from scadgen.interlock.path import Path
 from scadgen.plan.choice import Choice
 from scadgen.plan.slides import clusters, tubes_of
-from scadgen.plan.standing import Standing
+from scadgen.plan.standing import Origin, Standing
 from scadgen.solid.affine import Floats
 
 __all__ = ["Rows"]
@@ -73,7 +73,7 @@ class Rows:
         steps[1, 0] = side * np.ceil(far / side)
         turn = float(np.degrees(np.arctan2(way[1], way[0])))
         path = Path.through(steps, np.zeros(3))
-        return Choice(row, joint, path, standing.sites[joint].at, turn)
+        return Choice(row, joint, path, Origin(standing.sites[joint].at, turn))
 
     def _span(self, parts: Collection[int], way: Floats) -> tuple[float, float]:
         """Between what planes across a way some parts are, in mm."""

@@ -45,7 +45,7 @@ class Search:
         )
         moving = sorted(choice.parts)
         key = tuple(
-            tuple(sorted(self._prover.place(n, choice.at, choice.turn) for n in group))
+            tuple(sorted(self._prover.place(n, choice.origin) for n in group))
             for group in (moving, around)
         )
         if key not in self._known:
@@ -56,8 +56,7 @@ class Search:
         if not around:
             return None
         body, fixed = (
-            [self._prover.mesh(n, choice.at, choice.turn) for n in group]
-            for group in (moving, around)
+            [self._prover.mesh(n, choice.origin) for n in group] for group in (moving, around)
         )
         try:
             found = escape(body, fixed, seed=_SEED, seconds=_PATIENCE)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -18,13 +19,41 @@ from scadgen.frame.placement import Placement
 from scadgen.kit.model import Joint, Kit
 from scadgen.solid.affine import Floats
 
-__all__ = ["Site", "Standing", "stand"]
+__all__ = ["Origin", "Site", "Standing", "stand"]
 
 #: Directions as near as this are the same, in degrees; edges are at least 25 degrees apart.
 _ANGLE = 0.5
 
 #: Roles of edge elements.
 _ELEMENTS = ("row", "cross")
+
+
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """Where in the frame the coordinates of a joint, or of a way, are.
+
+    Parameters
+    ----------
+    at
+        Where their origin is, in edge lengths.
+    turn
+        Direction of their x axis, in degrees.
+    over
+        Whether they are turned over about it, so that z is down.
+    """
+
+    at: tuple[float, float]
+    turn: float
+    over: bool = False
+
+    @property
+    def sign(self) -> int:
+        """-1 if they are turned over, else 1."""
+        return -1 if self.over else 1
+
+    def direction(self, degrees: float) -> float:
+        """The frame's direction for one in their plane, in degrees."""
+        return self.turn + self.sign * degrees
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,10 +64,8 @@ class Site:
     ----------
     kind
         What kind of joint stands there.
-    at
-        Where, in edge lengths.
-    turn
-        Direction of its first key, in degrees.
+    origin
+        Where, and how.
     parts
         The part that each of the kind's pieces is or belongs to.  A fixed peg is its element.
     tubes
@@ -46,10 +73,14 @@ class Site:
     """
 
     kind: Joint
-    at: tuple[float, float]
-    turn: float
+    origin: Origin
     parts: Mapping[int, int]
     tubes: Mapping[int, int]
+
+    @property
+    def at(self) -> tuple[float, float]:
+        """Where it is, in edge lengths."""
+        return self.origin.at
 
     def pieces(self, *roles: str) -> list[int]:
         """Numbers of the pieces that have one of some roles."""
@@ -62,7 +93,7 @@ class Site:
 
     def direction(self, piece: int) -> float:
         """Direction of a piece's edge in the frame, in radians."""
-        return math.radians(self.turn + self.kind.pieces[piece].turn)
+        return math.radians(self.origin.direction(self.kind.pieces[piece].turn))
 
 
 @dataclass(frozen=True, eq=False)
@@ -192,31 +223,35 @@ def _length(kit: Kit, placement: Placement) -> float:
 
 def _site(kit: Kit, at: tuple[float, float], ends: Sequence[_End]) -> Site:
     """The joint that these ends make."""
-    for kind in kit.joints:
+    for kind, over in itertools.product(kit.joints, (False, True)):
         first = kind.pieces[0]
         for end in ends:
             if (end.placement.role, end.placement.part) != (first.role, first.part):
                 continue
-            turn = (end.turn - first.turn) % 360
-            found = _matched(kit, kind, turn, ends)
+            off = Origin(at, 0.0, over).direction(first.turn)
+            origin = Origin(at, (end.turn - off) % 360, over)
+            found = _matched(kit, kind, origin, ends)
             if found is not None:
-                return Site(kind, at, turn, *found)
+                return Site(kind, origin, *found)
     msg = f"a joint at {at} is one of the kit's kinds"
     raise InvariantError(msg)
 
 
 def _matched(
-    kit: Kit, kind: Joint, turn: float, ends: Sequence[_End]
+    kit: Kit, kind: Joint, origin: Origin, ends: Sequence[_End]
 ) -> tuple[dict[int, int], dict[int, int]] | None:
     """The part of each piece and of each key's tube, if these ends are a joint of a kind."""
     left = list(ends)
 
     def take(piece: Placement, role: str | None) -> int | None:
+        turn, wanted = origin.direction(piece.turn), (role, piece.part, piece.flip != origin.over)
         for end in left:
-            off = (end.turn - turn - piece.turn + 180) % 360 - 180
-            fits = end.is_element if role is None else end.placement.role == role
-            named = role is None or end.placement.part == piece.part
-            if abs(off) < _ANGLE and fits and named:
+            place = end.placement
+            off = (end.turn - turn + 180) % 360 - 180
+            fits = (
+                end.is_element if role is None else (place.role, place.part, place.flip) == wanted
+            )
+            if abs(off) < _ANGLE and fits:
                 left.remove(end)
                 return end.part
         return None

@@ -21,7 +21,7 @@ from scadgen.plan.words import finished, movable, sentence
 __all__ = ["FORMAT", "VERSION", "dumps", "plan_entry"]
 
 FORMAT = "scadgen-plan"
-VERSION = 2
+VERSION = 3
 
 #: Decimals of lengths in mm and of angles in degrees.
 _DECIMALS = 6
@@ -128,8 +128,9 @@ def _move(plan: Plan, number: int, move: Move) -> dict[str, Any]:
         "towards_deg": None if towards is None else round(towards, _DECIMALS) % 360,
         "tilted": motion.tilted,
         "way": move.way,
-        "at_mm": _rounded(unit * np.array(move.at)),
-        "turn_deg": round(move.turn, _DECIMALS),
+        "at_mm": _rounded(unit * np.array(move.origin.at)),
+        "turn_deg": round(move.origin.turn, _DECIMALS),
+        "flip": move.origin.over,
         "gap_mm": round(move.gap, _DECIMALS) if math.isfinite(move.gap) else None,
         "reason": move.reason,
     }

@@ -64,7 +64,9 @@ class Touching:
             parts = np.array(own + [site.tubes.get(n, -1) for n in kind.tubes])
             first, second = parts[contacts.first], parts[contacts.second]
             kept = np.flatnonzero((first >= 0) & (second >= 0) & (first != second))
-            turning = Rotation.from_euler("z", site.turn, degrees=True).as_matrix()
+            origin = site.origin
+            turning = Rotation.from_euler("z", origin.turn, degrees=True).as_matrix()
+            turning = turning @ np.diag([1.0, origin.sign, origin.sign])
             points = contacts.points[kept] @ turning.T + unit * np.array([*site.at, 0.0])
             normals = contacts.normals[kept] @ turning.T
             found.append((points, normals, first[kept], second[kept]))

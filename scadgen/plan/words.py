@@ -164,7 +164,13 @@ def _name(plan: Plan, parts: Sequence[int]) -> str:
     """A part's name; of several that are joined already their names."""
     if len(parts) > 1:
         return f"{_bill(plan, parts)}, joined already, as one"
-    return plan.standing.kit.placements[parts[0]].part
+    return _single(plan, parts[0])
+
+
+def _single(plan: Plan, part: int) -> str:
+    """A part's name, and whether it lies turned over."""
+    place = plan.standing.kit.placements[part]
+    return f"{place.part}, turned over," if place.turned_over else place.part
 
 
 def _laid(plan: Plan) -> Iterator[str]:
@@ -172,7 +178,7 @@ def _laid(plan: Plan) -> Iterator[str]:
     joints: dict[str, list[int]] = {}
     count: Counter[str] = Counter()
     for part in sorted(plan.first()):
-        name = plan.standing.kit.placements[part].part
+        name = _single(plan, part)
         count[name] += 1
         joints.setdefault(name, []).extend(plan.standing.sites_of[part])
     for name, where in joints.items():

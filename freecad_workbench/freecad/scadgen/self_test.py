@@ -145,7 +145,7 @@ def _kit() -> str:
     ]
     kit = {
         "format": "scadgen-kit",
-        "version": 2,
+        "version": 3,
         "frame": "square",
         "key": "fixed",
         "detail": "boxes",
