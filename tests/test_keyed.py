@@ -29,6 +29,8 @@ def towards(*degrees):
     return (200 * np.column_stack([np.cos(turn), np.sin(turn)])).tolist()
 
 
+DRAFT = ("--detail", "draft", "--no-cache")
+
 #: A triangle with two tails.
 TAILS = (
     [[141, 26], [78, 54], [200, 99], [17, 107], [138, 119]],
@@ -62,7 +64,7 @@ def test_that_keys_were_chosen_anew_is_told(tmp_path, capsys):
     file = tmp_path / "tails.json"
     file.write_text(json.dumps(dict(zip(("vertices", "edges"), TAILS, strict=True))))
     with pytest.raises(SystemExit) as ended:
-        main(["kit", str(file), "--scale", "2", "--detail", "draft", "-o", str(tmp_path / "kit")])
+        main(["kit", str(file), "--scale", "2", *DRAFT, "-o", str(tmp_path / "kit")])
     assert ended.value.code in (0, None)
     assert re.search(r"note: \d+ choices? of a key not proved", capsys.readouterr().out)
 
