@@ -10,6 +10,7 @@ from kits import bounds, once
 
 from scadgen.check.geometry import closed, footprint, gaps, partition, placed, same
 from scadgen.check.locking import joint_locks
+from scadgen.check.proof import proved
 from scadgen.emit.placing import placing
 from scadgen.emit.readme import readme
 from scadgen.emit.scad import scad
@@ -20,6 +21,10 @@ from scadgen.frame.graph import make_frame
 from scadgen.kit.bill import lines
 from scadgen.kit.build import Request, build
 from scadgen.kit.store import dumps, loads, summary
+from scadgen.plan.motion import motion_of
+from scadgen.plan.order import make_plan
+from scadgen.plan.whole import whole_frame
+from scadgen.plan.words import plan_text
 from scadgen.solid.gap import smallest_gap
 from scadgen.solid.mesh import volume
 from scadgen.tools.openscad import render
@@ -48,7 +53,16 @@ def dozen():
     return once("any-dozen", lambda _: build(request(graph)))
 
 
-both = pytest.mark.parametrize("made", [ladder, fork, dozen])
+def butterfly():
+    """Two joints with their edges the other way around from each other, and lone ends."""
+    left = [[0, 0], [-20, 120], [-80, -90]]
+    points = [*left, *([200 - x, y] for x, y in left)]
+    graph = make_frame("butterfly", points, [[0, 1], [0, 2], [3, 4], [3, 5], [0, 3]])
+    return once("any-butterfly", lambda _: build(request(graph)))
+
+
+def all_of(*made):
+    return pytest.mark.parametrize("made", made)
 
 
 def test_the_parts_of_a_ladder_are_those_reasoned_out_by_hand():
@@ -74,27 +88,63 @@ def test_the_parts_of_a_ladder_are_those_reasoned_out_by_hand():
 
 
 def test_the_parts_of_4612_are_those_reasoned_out_by_hand():
-    # Each edge is between a joint and one that is turned over; those have their key at another
-    # edge.  So there are two kinds of joints, and an element for each kind of edge: between square
-    # and hexagon, square and dodecagon, hexagon and dodecagon.
+    # Each edge is between two joints that have their edges the other way around, and their keys at
+    # different ones.  So there are two kinds of joints, and an element for each kind of edge:
+    # between square and hexagon, square and dodecagon, hexagon and dodecagon.
     made = dozen()
     assert [len(joint.turns) for joint in made.joints] == [3, 3]
     assert len(made.elements) == 3
-    over = {place.at: place.flip for place in made.placements if place.role == "half_a"}
+    halves = {place.at: place.part for place in made.placements if place.role == "half_a"}
+    assert len(set(halves.values())) == 2
     for place in made.placements:
         if place.part in made.elements:
             times = made.parts[place.part].coefficients["edge_length"][:, 0].max()
             turn = math.radians(place.turn)
             end = np.array(place.at) + times * np.array([math.cos(turn), math.sin(turn)])
-            far = min(over, key=lambda at: np.hypot(*(end - at)))
-            assert over[place.at] != over[far]
+            far = min(halves, key=lambda at: np.hypot(*(end - at)))
+            assert halves[place.at] != halves[far]
 
 
-@pytest.mark.parametrize("name", ["4.6.12", "V3.3.4.3.4", "V3.6.3.6"])
+def test_one_of_two_joints_is_turned_over():
+    made = butterfly()
+    over = {place.at[0] for place in made.placements if place.role == "half_a" and place.flip}
+    assert len(over) == 1
+    # Its wings are two elements, and each is at one of the joints turned over.
+    bill = summary(made)["bill"]
+    assert sorted(bill[name] for name in made.elements) == [1, 2, 2]
+    wings = [place for place in made.placements if bill[place.part] == 2 and place.role != "peg"]
+    flips = [place.flip for place in wings if place.part in made.elements]
+    assert sorted(flips) == [False, False, True, True]
+
+
+def test_a_plan_tells_what_lies_the_other_way_up():
+    made = proved(butterfly())
+    plan = make_plan(made)
+    assert plan.proved
+    assert whole_frame(plan.standing).held
+    text = " ".join(plan_text(plan, whole_frame(plan.standing)).split())
+    for place in made.placements:
+        if place.other_way_up:
+            how = "turned over" if place.flip else "not turned over"
+            assert f"{place.part}, {how}," in text
+    # The way of a half into the joint that is turned over is the other one's, turned over.
+    halves = {}
+    for move in (move for step in plan.steps if step.what == "halves" for move in step.moves):
+        (part,) = move.parts
+        halves[made.placements[part].part, move.origin.over] = move
+    both = {name for name, over in halves if over} & {name for name, over in halves if not over}
+    assert both
+    for name in both:
+        one, other = halves[name, False], halves[name, True]
+        assert motion_of(plan, one).above == -motion_of(plan, other).above != 0
+
+
+@pytest.mark.parametrize("name", ["butterfly", "V3.3.4.3.4", "V3.6.3.6"])
 def test_what_is_turned_over_is_one_clearance_from_its_neighbours(name):
     # All around each joint, as everything stands in the frame.
-    made = build(request(named(name, rows=2, columns=2)))
-    assert any(place.turned_over for place in made.placements)
+    tiling = name != "butterfly"
+    made = build(request(named(name, rows=2, columns=2))) if tiling else butterfly()
+    assert any(place.other_way_up for place in made.placements)
     clearance, unit, side = (made.values[n] for n in ("clearance", "edge_length", "side"))
     meshes = [placed(made, place, made.values) for place in made.placements]
     reach = side * max(joint.figures["tube_start_sides"] for joint in made.joints)
@@ -120,13 +170,13 @@ def _ends(made, name):
     yield points[:, 0].max() > length - reach
 
 
-@both
+@all_of(ladder, fork, butterfly)
 def test_a_kit_read_back_is_the_kit_that_was_written(made):
     text = dumps(made())
     assert dumps(loads(text)) == text
 
 
-@both
+@all_of(ladder, fork, butterfly)
 def test_its_parameters_make_it_again(made):
     assert same(made()).good
 
@@ -136,7 +186,7 @@ def test_a_frame_that_grew_for_its_joints_makes_the_same_kit_again(name):
     assert same(build(request(named(name)))).good
 
 
-@both
+@all_of(ladder, fork, butterfly)
 def test_its_solids_are_sound_and_its_joints_lock(made):
     kit = made()
     results = list(closed(kit))
@@ -146,7 +196,7 @@ def test_its_solids_are_sound_and_its_joints_lock(made):
     assert [result for result in results if not result.good] == []
 
 
-@both
+@all_of(ladder, fork, butterfly)
 def test_openscad_draws_all_of_it(made, tmp_path):
     kit = made()
     file = tmp_path / "any.scad"

@@ -36,7 +36,7 @@ def placing(kit: Kit) -> str:
     text
         SVG: elements have their names and joints their letters, dark squares stand where a peg
         goes in, and short stubs are loose connectors, named by joint and number.  What lies
-        turned over is underlined; where a joint's letter is, its halves do.
+        the other way up is underlined; where a joint's letter is, its halves do.
     """
     points = np.array([p.at for p in kit.placements]) * (_EDGE, -_EDGE)
     corner = points.min(axis=0) - _MARGIN
@@ -102,7 +102,7 @@ def _text(middle: Floats, name: str, placement: Placement) -> str:
 
 def _words(middle: Floats, words: str, placement: Placement) -> str:
     x, y = middle
-    over = ' text-decoration="underline"' if placement.turned_over else ""
+    over = ' text-decoration="underline"' if placement.other_way_up else ""
     return f'<text x="{x:.1f}" y="{y + 0.35 * _TEXT:.1f}"{over}>{words}</text>' if words else ""
 
 

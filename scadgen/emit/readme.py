@@ -69,7 +69,7 @@ def readme(kit: Kit) -> str:
             for one in kit.joints
             for place in one.pieces
         ),
-        turned_over=any(place.turned_over for place in kit.placements),
+        other_way_up=any(place.other_way_up for place in kit.placements),
         side=literal(kit.values["side"]),
         peg_length=literal(kit.values["peg_length"]),
         coupon_count=settings["coupon_count"].value,

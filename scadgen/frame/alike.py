@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scadgen.joint.symmetry import Symmetry
-from scadgen.solid.affine import Ints
+from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["Ends", "alike_slots"]
+__all__ = ["Alike", "Ends", "alike_slots"]
 
 
 def alike_slots(
@@ -48,6 +48,32 @@ def alike_slots(
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Alike:
+    """Edge elements that are the same part.
+
+    Parameters
+    ----------
+    what
+        ``(k, 2) int``: what is at the ends of each part.
+    over
+        ``(k, 2) bool``: whether it is turned over there; not if it is alike turned over.
+    length
+        ``(k,) float``: how long it is.
+    which
+        ``(m,) int``: the part that each element is.
+    swapped, flipped
+        ``(m,) bool``: whether that has to be turned about, and turned over, to be the element.
+    """
+
+    what: Ints
+    over: NDArray[np.bool_]
+    length: Floats
+    which: Ints
+    swapped: NDArray[np.bool_]
+    flipped: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Ends:
     """What edge elements end in.
 
@@ -59,43 +85,40 @@ class Ends:
         ``(m, 2) bool``: whether it is turned over there.
     either
         ``(m, 2) bool``: whether it is alike turned over.
+    length
+        ``(m,) float``: how long they are; the same for those that may be the same part.
     """
 
     what: Ints
     over: NDArray[np.bool_]
     either: NDArray[np.bool_]
+    length: Floats
 
-    def alike(self) -> tuple[Ints, NDArray[np.bool_], NDArray[np.bool_]]:
-        """The same for elements that are the same part: they may be swapped and turned over.
+    def alike(self) -> Alike:
+        """Which are the same part: they may be swapped and turned over.
 
-        Returns
-        -------
-        ends
-            ``(m, 4) int``: what is at the first end, at the second, and whether it is turned
-            over there.
-        swapped, flipped
-            ``(m,) bool``: whether such an element has to be turned about, and turned over, to
-            be this one.
+        A part is as most of its elements lie.
         """
-        ways = [
-            (what, over & ~either, swapped, flipped)
-            for flipped in (False, True)
-            for swapped in (False, True)
-            for what, over, either in [self._seen(swapped=swapped, flipped=flipped)]
-        ]
+        options = [(swapped, flipped) for flipped in (False, True) for swapped in (False, True)]
+        seen = np.stack([self._seen(*option) for option in options])
         size = int(self.what.max(initial=0)) + 1
-        codes = [
-            ((what[:, 0] * size + what[:, 1]) * 2 + over[:, 0]) * 2 + over[:, 1]
-            for what, over, *_ in ways
-        ]
-        best, row = np.argmin(codes, axis=0), np.arange(len(self.what))
-        every = np.stack([np.column_stack([what, over]) for what, over, *_ in ways])
-        chosen = np.array([way[2:] for way in ways])[best]
-        return every[best, row].astype(np.int64), chosen[:, 0], chosen[:, 1]
+        codes = ((seen[:, :, 0] * size + seen[:, :, 1]) * 2 + seen[:, :, 2]) * 2 + seen[:, :, 3]
+        best, row = codes.argmin(axis=0), np.arange(len(self.what))
+        swapped, flipped = np.array(options)[best].T
+        rows = np.column_stack([seen[best, row], self.length])
+        found, first, which = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+        which = which.ravel()
+        # Those of which most are turned over become what these are.
+        turned = 2 * np.bincount(which, flipped) > np.bincount(which)
+        either = np.where(swapped[:, None], self.either[:, ::-1], self.either)[first]
+        over = (found[:, 2:4].astype(bool) ^ turned[:, None]) & ~either
+        return Alike(
+            *(found[:, :2].astype(np.int64), over, found[:, 4]),
+            *(which, swapped, flipped ^ turned[which]),
+        )
 
-    def _seen(
-        self, *, swapped: bool, flipped: bool
-    ) -> tuple[Ints, NDArray[np.bool_], NDArray[np.bool_]]:
-        """The ends of elements that are turned about, or over, or both."""
+    def _seen(self, swapped: bool, flipped: bool) -> Ints:  # noqa: FBT001
+        """Elements that are turned about, or over, or both: what is at each end, and if over."""
         order = [1, 0] if swapped else [0, 1]
-        return self.what[:, order], (self.over ^ flipped)[:, order], self.either[:, order]
+        over = (self.over ^ flipped) & ~self.either
+        return np.column_stack([self.what[:, order], over[:, order]])

@@ -52,6 +52,12 @@ class Shape:
         """``(k,) float``: angle from each direction to the next."""
         return _gaps(self.directions)
 
+    def turned_over(self) -> Shape:
+        """The same turned over: slot s where ``-s`` was."""
+        back = -np.arange(len(self.directions)) % len(self.directions)
+        directions = -self.directions[back] % (2 * np.pi)
+        return Shape(directions, self.symmetry.turned_over())
+
 
 def _gaps(directions: Floats) -> Floats:
     """Angle from each direction, ascending from 0, to the next."""

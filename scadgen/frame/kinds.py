@@ -83,13 +83,15 @@ class Kinds:
         """Slots of the joint that has the most."""
         return max(len(shape.directions) for shape in self.shapes)
 
-    def ends(self, edges: Ints, sockets: Sequence[int]) -> Ends:
+    def ends(self, edges: Ints, lengths: Floats, sockets: Sequence[int]) -> Ends:
         """What the elements of some edges end in.
 
         Parameters
         ----------
         edges
             ``(m, 2) int``: the frame's.
+        lengths
+            ``(m,) float``: theirs; the same for those that may be the same part.
         sockets
             For each kind a number under that of all kinds: what an element ends in at a key.
 
@@ -107,7 +109,7 @@ class Kinds:
         split = keyed[kind, self.slots]
         connectors = len(self.kinds) + kind * self.most + first
         what = np.where(split, np.array(sockets)[kind], connectors)
-        return Ends(what, over ^ self.over[edges], either | split)
+        return Ends(what, over ^ self.over[edges], either | split, lengths)
 
     def directions(self, vertex: int) -> Floats:
         """Where the connectors of a vertex point, by slot, in radians."""
@@ -147,15 +149,16 @@ def choose_kinds(
         [shape.directions for shape in found.shapes],
         refused,
     )
-    return gathered(choose_keys(places, lambda keys: _parts(gathered(keys), frame, same)))
+    chosen = choose_keys(places, lambda keys: _parts(gathered(keys), frame, same))
+    return _as_most_lie(gathered(chosen), frame)
 
 
 def _parts(kinds: Kinds, frame: Frame, same: Sameness) -> int:
     """How many kinds of joints and of edge elements there are."""
     # Sockets are those of a ring, which joints of one shape have alike.
-    ends, *_ = kinds.ends(frame.edges, [one.shape for one in kinds.kinds]).alike()
-    length = np.array([edge.length for edge in same.edges])[same.edge_of]
-    return len(kinds.kinds) + len(np.unique(np.column_stack([ends, length]), axis=0))
+    sockets = [one.shape for one in kinds.kinds]
+    elements = kinds.ends(frame.edges, same.lengths, sockets).alike()
+    return len(kinds.kinds) + len(elements.what)
 
 
 def _gathered(found: Hosted, frame: Frame, keys: Sequence[Collection[int]]) -> Kinds:
@@ -209,3 +212,25 @@ def _first_keys(symmetry: Symmetry, keys: Collection[int]) -> tuple[tuple[int, .
     }
     first, way = min(found, key=lambda one: found[one])
     return found[first, way], first, way < 0
+
+
+def _as_most_lie(kinds: Kinds, frame: Frame) -> Kinds:
+    """The same with each kind turned over of which most joints are, and those joints not."""
+    shapes, over, slots = list(kinds.shapes), kinds.over.copy(), kinds.slots.copy()
+    found = []
+    for number, kind in enumerate(kinds.kinds):
+        mine = kinds.kind_of == number
+        if 2 * np.count_nonzero(over[mine]) <= np.count_nonzero(mine):
+            found.append(kind)
+            continue
+        shape = kinds.shape(number).turned_over()
+        count = shape.symmetry.count
+        keys, caps = (
+            tuple(sorted(-slot % count for slot in some)) for some in (kind.keys, kind.caps)
+        )
+        found.append(Kind(len(shapes), keys, caps))
+        shapes.append(shape)
+        over[mine] = ~over[mine]
+        ends = mine[frame.edges]
+        slots[ends] = -slots[ends] % count
+    return Kinds(tuple(shapes), tuple(found), kinds.kind_of, over, kinds.turn, slots)

@@ -43,8 +43,8 @@ class Placement:
     role: str
 
     @property
-    def turned_over(self) -> bool:
-        """Whether it lies with that face up that half B has up, and all others down.
+    def other_way_up(self) -> bool:
+        """Whether it lies the other way up than most: turned over, or as half B not so.
 
         A peg is alike on all sides.
         """

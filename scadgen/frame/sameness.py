@@ -103,6 +103,11 @@ class Sameness:
     angle_errors: Floats
     length_errors: Floats
 
+    @property
+    def lengths(self) -> Floats:
+        """``(m,) float``: the length of each edge's class, in mm."""
+        return np.array([edge.length for edge in self.edges])[self.edge_of]
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Snapped:
@@ -161,17 +166,19 @@ def sameness(
     first, turned, either = alike_slots([joint.symmetry for joint in joints], kind, slot)
     most = int(frame.degree.max())
     turned ^= over[frame.edges].astype(bool)
-    ends, swapped, _ = Ends(kind * most + first, turned, either).alike()
-    keys, edge_of = np.unique(np.column_stack([ends, length_of]), axis=0, return_inverse=True)
-    members = _members(edge_of.ravel(), len(keys))
+    found = Ends(kind * most + first, turned, either, lengths[length_of]).alike()
+    members = _members(found.which, len(found.what))
+    parts = zip(
+        found.what.tolist(), found.over.tolist(), found.length.tolist(), members, strict=True
+    )
     edges = tuple(
-        EdgeClass(float(lengths[n]), (a // most, b // most), (a % most, b % most), bool(o), which)
-        for (a, b, _, o, n), which in zip(keys.tolist(), members, strict=True)
+        EdgeClass(length, (a // most, b // most), (a % most, b % most), one != other, which)
+        for (a, b), (one, other), length, which in parts
     )
     off = np.abs(frame.lengths - lengths[length_of])
     return Sameness(
         *(joints, joint_of, over.astype(bool), turn, shift),
-        *(edges, edge_of.ravel(), swapped, errors, off),
+        *(edges, found.which, found.swapped, errors, off),
     )
 
 

@@ -73,6 +73,11 @@ class Symmetry:
         """Whether the edge is like itself turned over."""
         return self.mirror is not None and self.mirrored(slot) == slot % self.period
 
+    def turned_over(self) -> Symmetry:
+        """That of the joint turned over, slot s where ``-s`` was."""
+        mirror = None if self.mirror is None else -self.mirror % self.period
+        return Symmetry(self.count, self.period, mirror)
+
     def least_turn(self, turn: Floats, tolerance: float) -> tuple[Floats, Ints]:
         """Turns as small as can be, less than 0 by the tolerance at most, for the same joint.
 

@@ -288,27 +288,29 @@ class _Build:
     def _elements(self) -> tuple[dict[str, _Element], list[_Laid]]:
         """The kinds of edge elements by name, and which is laid on each edge."""
         sockets = _firsts([_rounded(one.key) for one in self.pieces])
-        ends, swapped, flipped = self.kinds.ends(self.frame.edges, sockets).alike()
-        lengths = np.array([edge.length for edge in self.same.edges]) / self.unit
-        rows = np.column_stack([ends, lengths.round(_DECIMALS)[self.same.edge_of]])
-        found, which = np.unique(rows, axis=0, return_inverse=True)
-        names = [f"edge_{n}" for n in range(1, len(found) + 1)]
+        lengths = (self.same.lengths / self.unit).round(_DECIMALS)
+        alike = self.kinds.ends(self.frame.edges, lengths, sockets).alike()
+        names = [f"edge_{n}" for n in range(1, len(alike.what) + 1)]
         elements = (
-            _Element(self._end(int(near), over[0]), self._end(int(far), over[1]), length)
-            for near, far, *over, length in found.tolist()
+            _Element(self._end(what[0], over[0]), self._end(what[1], over[1]), length)
+            for what, over, length in zip(
+                alike.what.tolist(), alike.over.tolist(), alike.length.tolist(), strict=True
+            )
         )
-        laid = zip(which.ravel().tolist(), swapped.tolist(), flipped.tolist(), strict=True)
+        laid = zip(
+            alike.which.tolist(), alike.swapped.tolist(), alike.flipped.tolist(), strict=True
+        )
         return (
             dict(zip(names, elements, strict=True)),
             [_Laid(names[n], about, over) for n, about, over in laid],
         )
 
-    def _end(self, what: int, over: float) -> _End:
+    def _end(self, what: int, over: bool) -> _End:  # noqa: FBT001
         """What `Kinds.ends` has a number for."""
         count = len(self.kinds.kinds)
         if what < count:
             return _End(what, None, over=False)
-        return _End(*divmod(what - count, self.kinds.most), over=bool(over))
+        return _End(*divmod(what - count, self.kinds.most), over)
 
     def limits(self) -> tuple[Range, ...]:
         """What the live parameters may be, so that all joints and elements are sound."""

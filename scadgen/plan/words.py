@@ -168,9 +168,11 @@ def _name(plan: Plan, parts: Sequence[int]) -> str:
 
 
 def _single(plan: Plan, part: int) -> str:
-    """A part's name, and whether it lies turned over."""
+    """A part's name, and how it lies if that is the other way up than others."""
     place = plan.standing.kit.placements[part]
-    return f"{place.part}, turned over," if place.turned_over else place.part
+    if not place.other_way_up:
+        return place.part
+    return f"{place.part}, {'turned over' if place.flip else 'not turned over'},"
 
 
 def _laid(plan: Plan) -> Iterator[str]:
