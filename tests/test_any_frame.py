@@ -230,11 +230,17 @@ def test_a_picture_says_where_each_piece_goes():
     made = fork()
     text = placing(made)
     names = re.findall(r"<text[^>]*>([^<]*)</text>", text)
-    elements = [p.part for p in made.placements if p.part.startswith("edge_")]
-    caps = [p.part.removeprefix("connector_") for p in made.placements if p.role == "cap"]
     several = len(made.joints) > 1  # a lone kind of joint has no letter
-    joints = [p.part[5] for p in made.placements if p.role == "half_a" and several]
-    assert sorted(names) == sorted([*elements, *caps, *joints])
+    expected = []
+    for place in made.placements:
+        other = "*" if place.role != "peg" and place.flip != (place.role == "half_b") else ""
+        if place.part.startswith("edge_"):
+            expected.append(place.part + other)
+        elif place.role == "cap":
+            expected.append(place.part.removeprefix("connector_") + other)
+        elif place.role == "half_a" and several:
+            expected.append(place.part[5] + other)
+    assert sorted(names) == sorted(expected)
     assert text.count("<circle") == len(FORK[0])
 
 

@@ -36,7 +36,7 @@ def placing(kit: Kit) -> str:
     text
         SVG: elements have their names and joints their letters, dark squares stand where a peg
         goes in, and short stubs are loose connectors, named by joint and number.  What lies
-        the other way up is underlined; where a joint's letter is, its halves do.
+        the other way up has a star; a joint has one if its halves do.
     """
     points = np.array([p.at for p in kit.placements]) * (_EDGE, -_EDGE)
     corner = points.min(axis=0) - _MARGIN
@@ -48,16 +48,18 @@ def placing(kit: Kit) -> str:
         if placement.part in names:
             end = point + _ahead(placement, _EDGE * _times(kit, placement.part))
             layers[0].append(_line(point, end, placement.role))
-            layers[3].append(_text((point + end) / 2, placement.part, placement))
+            layers[3].append(_text((point + end) / 2, placement.marked(placement.part)))
         elif placement.role == "cap":
             layers[0].append(_line(point, point + _ahead(placement, 2 * _JOINT), "cap"))
             which = placement.part.partition("_")[2]
-            layers[3].append(_text(point + _ahead(placement, 2.6 * _JOINT), which, placement))
+            layers[3].append(
+                _text(point + _ahead(placement, 2.6 * _JOINT), placement.marked(which))
+            )
         elif placement.role == "half_a":
             x, y = point
             fill = _colour("half_b")
             layers[1].append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{_JOINT}" fill="{fill}"/>')
-            layers[2].append(_words(point, letters[placement.part], placement))
+            layers[2].append(_words(point, placement.marked(letters[placement.part])))
         elif placement.role == "peg":
             x, y = point + _ahead(placement, 1.4 * _JOINT) - _KEY / 2
             square = f'<rect x="{x:.1f}" y="{y:.1f}" width="{_KEY}" height="{_KEY}"'
@@ -90,20 +92,19 @@ def _line(start: Floats, end: Floats, role: str) -> str:
     )
 
 
-def _text(middle: Floats, name: str, placement: Placement) -> str:
+def _text(middle: Floats, name: str) -> str:
     """A name on a light ground, so that it is read on any tube."""
     x, y = middle
     box = 0.58 * _TEXT * len(name), 1.3 * _TEXT
     return (
         f'<rect x="{x - box[0] / 2:.1f}" y="{y - box[1] / 2:.1f}" width="{box[0]:.1f}" '
-        f'height="{box[1]:.1f}" rx="3" fill="white"/>{_words(middle, name, placement)}'
+        f'height="{box[1]:.1f}" rx="3" fill="white"/>{_words(middle, name)}'
     )
 
 
-def _words(middle: Floats, words: str, placement: Placement) -> str:
+def _words(middle: Floats, words: str) -> str:
     x, y = middle
-    over = ' text-decoration="underline"' if placement.other_way_up else ""
-    return f'<text x="{x:.1f}" y="{y + 0.35 * _TEXT:.1f}"{over}>{words}</text>' if words else ""
+    return f'<text x="{x:.1f}" y="{y + 0.35 * _TEXT:.1f}">{words}</text>' if words else ""
 
 
 def _colour(role: str) -> str:

@@ -49,3 +49,7 @@ class Placement:
         A peg is alike on all sides.
         """
         return self.role != "peg" and self.flip != (self.role == "half_b")
+
+    def marked(self, name: str) -> str:
+        """A name for it in a picture, with a star if it lies the other way up."""
+        return f"{name}*" if self.other_way_up else name

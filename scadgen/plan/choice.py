@@ -11,7 +11,7 @@ import numpy as np
 from scadgen.interlock.path import Path
 from scadgen.plan.standing import Origin
 
-__all__ = ["Choice", "cut_ways", "inverse"]
+__all__ = ["Choice", "cut_ways", "inverse", "reflected"]
 
 #: Shares of a way after which a part may be lifted out: ways of a joint may end far aside.
 _SHARES = (1.0, 0.5, 0.75, 0.875, 0.625, 0.375, 0.25)
@@ -56,3 +56,9 @@ def cut_ways(path: Path, up: float) -> Iterator[tuple[Path, float]]:
 def inverse(path: Path) -> Path:
     """How the others move, as seen from what moves."""
     return Path(np.asarray(np.linalg.inv(path.poses), dtype=np.float64), path.middle)
+
+
+def reflected(path: Path) -> Path:
+    """A way with up and down swapped: one for what is alike on both sides, as a peg is."""
+    steps = path.steps() * [1.0, 1.0, -1.0, -1.0, -1.0, 1.0]
+    return Path.through(steps, path.middle * [1.0, 1.0, -1.0])

@@ -44,7 +44,7 @@ class Labels:
         box = np.concatenate([middle - half, middle + half])
         self._taken = np.vstack([self._taken, box])
 
-    def put(self, words: str, at: Floats, *, on: bool, look: str = "") -> str:
+    def put(self, words: str, at: Floats, *, on: bool) -> str:
         """A label for a place, as SVG: beside it, or on it if wanted and free.
 
         Parameters
@@ -55,8 +55,6 @@ class Labels:
             ``(2,) float``: the place.
         on
             Whether the label may be on the place itself.
-        look
-            A class of the page's style that it has besides.
         """
         half = self.size * np.array([_LETTER * len(words), _LINE]) / 2
         angles = 2 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
@@ -69,7 +67,7 @@ class Labels:
         costs[(middles[:, 0] < half[0]) | (middles[:, 0] > self._width - half[0])] += self._width
         best = int(costs.argmin())
         self.keep(middles[best], half)
-        return self._drawn(words, middles[best], at, look)
+        return self._drawn(words, middles[best], at)
 
     def _covered(self, middles: Floats, half: Floats) -> Floats:
         """How much of what is taken labels would cover, each."""
@@ -77,10 +75,10 @@ class Labels:
         high = np.minimum((middles + half)[:, None], self._taken[None, :, 2:])
         return np.asarray(np.maximum(high - low, 0.0).prod(axis=2).sum(axis=1))
 
-    def _drawn(self, words: str, middle: Floats, at: Floats, look: str) -> str:
+    def _drawn(self, words: str, middle: Floats, at: Floats) -> str:
         (x, y), off = middle, np.linalg.norm(middle - at)
-        lead, looks = "", " ".join(["name", *look.split()])
+        lead = ""
         if off > _LED * self.size:
             lead = f'<path class="lead" d="M{at[0]:.1f} {at[1]:.1f}L{x:.1f} {y:.1f}"/>'
         y += 0.36 * self.size
-        return f'{lead}<text class="{looks}" x="{x:.1f}" y="{y:.1f}">{html.escape(words)}</text>'
+        return f'{lead}<text class="name" x="{x:.1f}" y="{y:.1f}">{html.escape(words)}</text>'

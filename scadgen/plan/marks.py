@@ -27,7 +27,7 @@ STYLE = (
     f".solid{{fill:{_DARK}}}"
     ".joint{fill:#fff;stroke:#83837d;stroke-width:.7}"
     f".busy{{fill:#fff;stroke:{_DARK};stroke-width:1.5}}"
-    ".number{text-anchor:middle}.quiet{fill:#83837d}.over{text-decoration:underline}"
+    ".number{text-anchor:middle}.quiet{fill:#83837d}"
 )
 
 #: Widths of a letter and of a legend's sample, and heights of its lines, in sizes of its text.
@@ -90,10 +90,10 @@ def _across(at: Floats, size: float) -> str:
     return arrow(at - half, at + half, size)
 
 
-def _written(words: str, look: str) -> Callable[[Floats, float], str]:
+def _written(words: str) -> Callable[[Floats, float], str]:
     def draw(at: Floats, size: float) -> str:
         x, y = at
-        return f'<text class="number {look}" x="{x:.1f}" y="{y + 0.36 * size:.1f}">{words}</text>'
+        return f'<text class="number quiet" x="{x:.1f}" y="{y + 0.36 * size:.1f}">{words}</text>'
 
     return draw
 
@@ -108,8 +108,8 @@ _MEANINGS: tuple[tuple[str, Callable[[Floats, float], str], str], ...] = (
     ("below", lambda at, size: rise_mark(at, -1, size), "goes up, from below"),
     ("along", _across, "goes along the frame"),
     ("joint", lambda at, size: joint_mark(at, 1, "", size, busy=True), "joint with its number"),
-    ("kind", _written("A", "quiet"), "kind of joint, as in connector_A1"),
-    ("over", _written("edge", "over"), "lies the other way up"),
+    ("kind", _written("A"), "kind of joint, as in connector_A1"),
+    ("other", _written("*"), "lies the other way up"),
 )
 
 

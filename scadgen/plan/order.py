@@ -18,13 +18,14 @@ Moves of a step are proved with all there that is there before any of them.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from scadgen.errors import InputError
 from scadgen.interlock.path import Path
 from scadgen.kit.model import Kit, Way
-from scadgen.plan.choice import Choice, cut_ways
+from scadgen.plan.choice import Choice, cut_ways, reflected
 from scadgen.plan.model import Move, Plan, Step
 from scadgen.plan.proof import Found, Prover
 from scadgen.plan.rows import Rows
@@ -118,10 +119,18 @@ class _Planner:
                     site, way = self._standing.sites[number], queue.pop(0)
                     parts = frozenset(site.parts[n] for n in way.moving)
                     path = way.path.scaled(self._side)
-                    choice = Choice(parts, number, path, site.origin)
-                    wave.append(self._lifted(choice, search=True))
+                    wave.append(self._out(Choice(parts, number, path, site.origin)))
             self._take(wave, f"{what} out")
             self._steps.append(Step(what, tuple(wave)))
+
+    def _out(self, choice: Choice) -> Move:
+        """The move of pieces out of a joint; a peg's goes up where its joint is turned over too."""
+        parts = [self._standing.kit.placements[part] for part in choice.parts]
+        if choice.origin.over and all(place.role == "peg" for place in parts):
+            move = self._lifted(replace(choice, path=reflected(choice.path)))
+            if move.proved:
+                return move
+        return self._lifted(choice, search=True)
 
     def _own(self, site: Site, way: Way, roles: tuple[str, ...]) -> bool:
         """Whether a way is of pieces with these roles, all of them parts of their own."""

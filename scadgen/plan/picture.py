@@ -168,15 +168,12 @@ class _Page:
             else:
                 named += [(self._name(part), shown.middle(part), part) for part in move.parts]
         for words, place, part in sorted(named, key=lambda one: one[2]):
-            on, own = part in self._plan.standing.elements, words == self._name(part)
-            look = "over" if own and self._other_way_up(part) else ""
-            yield self._labels.put(words, self._on_page(place), on=on, look=look)
+            on = part in self._plan.standing.elements
+            yield self._labels.put(words, self._on_page(place), on=on)
 
     def _name(self, part: int) -> str:
-        return self._plan.standing.kit.placements[part].part
-
-    def _other_way_up(self, part: int) -> bool:
-        return self._plan.standing.kit.placements[part].other_way_up
+        place = self._plan.standing.kit.placements[part]
+        return place.marked(place.part)
 
     def _meant(self) -> Iterator[str]:
         """What there is on the page, as the legend calls it."""
@@ -189,7 +186,7 @@ class _Page:
             if motion.towards is not None:
                 yield "along"
         named = shown.moving | (self._plan.first() if self._number == 1 else frozenset())
-        if any(map(self._other_way_up, named)):
-            yield "over"
+        if any(self._plan.standing.kit.placements[part].other_way_up for part in named):
+            yield "other"
         if any(site.kind.name for site in self._plan.standing.sites):
             yield "kind"
