@@ -88,12 +88,19 @@ def _joint(kit: Kit, one: Joint) -> dict[str, Any]:
     return {
         "name": one.name,
         "title": one.title,
-        "bill": bill(one.pieces, kit.parts),
+        "bill": [_counted(one, *line) for line in bill(one.pieces, kit.parts).items()],
         "angles": [f"{b - a:.5g}" for a, b in pairwise([*one.turns, 360.0])],
         "weave": {name: _text(value) for name, value in one.weave.items()},
         "verdicts": {name: _text(found) for name, found in one.verdicts.items()},
         "figures": {name: _text(value) for name, value in one.figures.items()},
     }
+
+
+def _counted(one: Joint, part: str, count: int) -> str:
+    """How many of a part a joint has, and where from its first key it lies turned over."""
+    over = [f"{p.turn:.4g}°" for p in one.pieces if p.part == part and p.other_way_up]
+    turned = f" (turned over at {', '.join(over)})" if over else ""
+    return f"{count} x `{part}`{turned}"
 
 
 def _needed(kit: Kit, line: Line) -> dict[str, Any]:

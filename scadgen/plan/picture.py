@@ -136,7 +136,8 @@ class _Page:
     def _joints(self) -> Iterator[str]:
         """Numbers of the joints."""
         for number, place, busy in self._shown.joints():
-            at, kind = self._on_page(place), self._plan.standing.sites[number].kind.name
+            site = self._plan.standing.sites[number]
+            at, kind = self._on_page(place), site.kind.name + "*" * site.origin.over
             self._labels.keep(at, self._size * (1.9 if kind else 1.0))
             yield joint_mark(at, number + 1, kind, self._size, busy=busy)
 
@@ -186,7 +187,8 @@ class _Page:
             if motion.towards is not None:
                 yield "along"
         named = shown.moving | (self._plan.first() if self._number == 1 else frozenset())
-        if any(self._plan.standing.kit.placements[part].other_way_up for part in named):
+        over = any(self._plan.standing.sites[n].origin.over for n, *_ in shown.joints())
+        if over or any(self._plan.standing.kit.placements[n].other_way_up for n in named):
             yield "other"
         if any(site.kind.name for site in self._plan.standing.sites):
             yield "kind"

@@ -110,12 +110,13 @@ class Shown:
             yield self._unit * np.array(site.at) + gap
 
     def _end(self, part: int, joint: int) -> Floats:
-        """The end of an element at a joint, or the middle of another part."""
+        """The end of an element at a joint; of another part, where its tube would start."""
         standing = self._plan.standing
-        if part not in standing.elements:
-            return self.middle(part)
         site = standing.sites[joint]
         centre = self._unit * np.array(site.at)
+        if part not in standing.elements:
+            start = self._side * site.kind.figures["tube_start_sides"]
+            return np.asarray(centre + start * ahead(standing.kit.placements[part].turn))
         way = self.middle(part) - centre
         reach = self._side * (site.kind.figures["tube_start_sides"] + _BEYOND)
         return np.asarray(centre + way * min(reach / float(np.linalg.norm(way)), 1.0))

@@ -172,7 +172,7 @@ def _single(plan: Plan, part: int) -> str:
     place = plan.standing.kit.placements[part]
     if not place.other_way_up:
         return place.part
-    return f"{place.part}, {'turned over' if place.flip else 'not turned over'},"
+    return f"{place.part}, {'turned over' if place.flip else 'as printed'},"
 
 
 def _laid(plan: Plan) -> Iterator[str]:
