@@ -117,6 +117,13 @@ def test_one_of_two_joints_is_turned_over():
     assert sorted(flips) == [False, False, True, True]
 
 
+def test_halves_of_one_shape_have_one_name():
+    # In 3.4.6.4 half B of the joint with its key between squares is half A turned over, though
+    # the joint is not alike on both sides of that edge.
+    made = build(request(named("3.4.6.4", rows=1, columns=1)))
+    assert sorted(len(joint.half_parts) for joint in made.joints) == [1, 2]
+
+
 def test_a_plan_tells_what_lies_the_other_way_up():
     made = proved(butterfly())
     plan = make_plan(made)

@@ -219,6 +219,7 @@ def _tried(made: Joint, style: str, extra: int, keys: Sequence[int], *, bored: b
     for edge in keys:
         first, flip = made.alike[edge]
         half_a, half_b = (piece[surface] for surface in over[first])
+        half_b = half_a if half_a.is_like(half_b) else half_b
         halves[edge] = (half_b, half_a) if flip else (half_a, half_b)
     solids = itertools.chain(
         (connector(key, whole) for whole in wholes.values()),
