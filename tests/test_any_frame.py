@@ -251,6 +251,14 @@ def test_a_picture_says_where_each_piece_goes():
     assert text.count("<circle") == len(FORK[0])
 
 
+def test_an_edge_that_is_too_long_is_refused_with_its_place():
+    words = (
+        r"edge 0 from vertex 0 at \(0, 0\) to vertex 1 at \(2100, 0\), 2100 mm .*at most 2000 mm"
+    )
+    with pytest.raises(GeometryError, match=words):
+        build(request(make_frame("long", [[0, 0], [2100, 0], [2100, 300]], [[0, 1], [1, 2]])))
+
+
 def test_what_cannot_be_built_is_refused_with_its_place():
     near = make_frame("near", [[0, 0], [200, 0], [199, 20]], [[0, 1], [0, 2]])
     with pytest.raises(InputError, match=r"vertex 0 at \(0, 0\), angles 5\.\d+, .*at least 25"):

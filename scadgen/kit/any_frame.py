@@ -17,19 +17,19 @@ import numpy as np
 from scadgen.element.ends import End, connector, connector_end, key_end, part, peg
 from scadgen.element.pieces import half
 from scadgen.element.squares import Key
-from scadgen.errors import InputError, InvariantError
+from scadgen.errors import GeometryError, InputError, InvariantError
 from scadgen.frame.graph import Frame, make_frame
 from scadgen.frame.joints import least_scale
 from scadgen.frame.kinds import Kinds, choose_kinds
 from scadgen.frame.placement import Placement
-from scadgen.frame.planarity import corner
+from scadgen.frame.planarity import corner, where
 from scadgen.frame.sameness import Sameness, joint_name, sameness
 from scadgen.joint.symmetry import Symmetry
 from scadgen.joint.weave import Weave, any_joint
 from scadgen.kit.apart import Apart
 from scadgen.kit.model import Joint, Kit
 from scadgen.kit.pieces import Pieces
-from scadgen.kit.ranges import SIDE, check_values, edge_range, ranges
+from scadgen.kit.ranges import LONGEST, SIDE, check_values, edge_range, ranges
 from scadgen.kit.request import Request, default_values
 from scadgen.kit.room import reaches, room
 from scadgen.kit.wanted import Wanted, wanted_pieces
@@ -127,6 +127,7 @@ def build_frame(
         # Anew, to the last digit as from the frame that the kit keeps.
         frame = sized
         same, kinds, weaves = _joints(request, frame)
+    _check_longest(frame, side)
     reach = [reaches(kinds.shape(n).directions, weave.ring_ratio) for n, weave in enumerate(weaves)]
     modest = {n: min(v, _MODEST[n] * side) for n, v in request.values.items() if n in _MODEST}
     rings = np.array([weave.ring_ratio for weave in weaves])
@@ -198,6 +199,25 @@ def _sized(request: Request, frame: Frame, shortest: float, rings: Floats) -> Fr
     if abs(wanted - shortest) > 10**-_LENGTH_DECIMALS:
         frame = make_frame(frame.name, frame.vertices * (wanted / shortest), frame.edges)
     return frame
+
+
+def _check_longest(frame: Frame, side: float) -> None:
+    """Refuse edges that are too long to be printed.
+
+    Raises
+    ------
+    GeometryError
+        One is: says where.
+    """
+    edge = int(frame.lengths.argmax())
+    if frame.lengths[edge] > LONGEST:
+        first, second = (f"vertex {v} at {where(frame.vertices[v])}" for v in frame.edges[edge])
+        msg = (
+            f"edge {edge} from {first} to {second}, {frame.lengths[edge]:.4g} mm long with a side "
+            f"of {side:g} mm, is too long: at most {LONGEST:g} mm works; a smaller side or frame, "
+            "or a vertex in its middle helps"
+        )
+        raise GeometryError(msg)
 
 
 def _weave(frame: Frame, kinds: Kinds, number: int) -> Weave:

@@ -13,7 +13,10 @@ from scadgen.element.squares import Key
 from scadgen.errors import InputError
 from scadgen.solid.affine import Linear, Range
 
-__all__ = ["SIDE", "TUBE", "WALL", "check_values", "edge_range", "ranges", "span"]
+__all__ = ["LONGEST", "SIDE", "TUBE", "WALL", "check_values", "edge_range", "ranges", "span"]
+
+#: Longest that an edge may be, in mm.
+LONGEST = 2000.0
 
 #: Thinnest wall anywhere beside a hole, in sides; 0.4 mm, one line of a nozzle, at side 10 mm.
 WALL = 0.04
@@ -100,7 +103,7 @@ def edge_range(ends: Iterable[tuple[Key, bool]], times: float) -> Range:
     return Range(
         "edge_length",
         Linear({name: factor / times for name, factor in terms.items()}),
-        Linear({}, 2000.0 / times),
+        Linear({}, LONGEST / times),
         "two joints need room, and half a side of tube between them",
     )
 
@@ -117,7 +120,7 @@ def _fixed(key: Key) -> list[Range]:
         Range(
             "edge_length",
             Linear({"side": 2 * key.tube_start + TUBE, "clearance": 2.0}),
-            Linear({}, 2000.0),
+            Linear({}, LONGEST),
             "two joints need room, and half a side of tube between them",
         ),
     ]
@@ -135,7 +138,7 @@ def _loose(key: Key, hole: float) -> list[Range]:
         Range(
             "edge_length",
             Linear({"side": 2 * key.pad + TUBE, "peg_length": 2.0, "peg_clearance": 2.0}),
-            Linear({}, 2000.0),
+            Linear({}, LONGEST),
             "the sockets at a tube's two ends must not meet",
         ),
     ]
