@@ -251,6 +251,14 @@ def test_a_picture_says_where_each_piece_goes():
     assert text.count("<circle") == len(FORK[0])
 
 
+@pytest.mark.parametrize("narrow", [26, 40])
+def test_a_straight_gap_is_no_more_than_half_a_turn_however_it_is_rounded(narrow):
+    turns = np.radians([-narrow, 0, narrow, 90, 270])
+    points = np.vstack([[0, 0], 300 * np.column_stack([np.cos(turns), np.sin(turns)])])
+    made = build(request(make_frame("cross", points, [[0, n] for n in range(1, 6)])))
+    assert len(made.elements) == 3  # the middle one, and two that come twice
+
+
 def test_an_edge_that_is_too_long_is_refused_with_its_place():
     words = (
         r"edge 0 from vertex 0 at \(0, 0\) to vertex 1 at \(2100, 0\), 2100 mm .*at most 2000 mm"

@@ -14,6 +14,10 @@ from scadgen.solid.affine import Floats, Ints
 __all__ = ["Symmetry", "lopsided"]
 
 
+#: A gap is more than half a turn from this on, in radians: far above how directions are rounded.
+_STRAIGHT = 1e-6
+
+
 def lopsided(gaps: Floats, keys: Collection[int]) -> NDArray[np.bool_]:
     """The gaps whose wall is beside the first edge, and would be beside the other turned over.
 
@@ -29,7 +33,7 @@ def lopsided(gaps: Floats, keys: Collection[int]) -> NDArray[np.bool_]:
     """
     here = np.isin(np.arange(len(gaps)), list(keys))
     after = np.roll(here, -1)
-    return np.asarray(np.where(here, after, ~after & (gaps > np.pi)))
+    return np.asarray(np.where(here, after, ~after & (gaps > np.pi + _STRAIGHT)))
 
 
 @dataclass(frozen=True, slots=True)
