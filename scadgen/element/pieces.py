@@ -7,22 +7,17 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from scadgen.element.squares import Key, Length, chain, vertex
 from scadgen.errors import InvariantError
 from scadgen.joint.pieces import PAD, SPLIT, TUBE
 from scadgen.joint.surface import Surface, half_turn
 from scadgen.joint.walls import Facet
-from scadgen.solid.affine import AffineSolid, Floats, Ints
+from scadgen.solid.affine import AffineSolid, Floats
 from scadgen.solid.planar import triangulate
 from scadgen.solid.shell import Shell
 
 __all__ = ["Piece", "add_facet", "add_surface", "corners_of", "half"]
-
-
-#: Shapes are the same within this, in sides: far below what is printed.
-_SAME = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -47,22 +42,6 @@ class Piece:
         """The same after a half turn about its edge."""
         way = np.array([1.0, -1.0, -1.0])
         return Piece(half_turn(self.surface), self.displacement * way, self.rest)
-
-    def is_like(self, other: Piece) -> bool:
-        """Whether it is the same shape, however it is numbered."""
-        ours, theirs = self.surface, other.surface
-        if len(ours.points) != len(theirs.points) or len(ours.walls) != len(theirs.walls):
-            return False
-        far, found = cKDTree(theirs.points).query(ours.points)
-        match = np.asarray(found)
-        off = np.abs(other.displacement[match] - self.displacement)
-        alike = len(np.unique(match)) == len(match) and max(np.max(far), off.max()) < _SAME
-        return bool(alike) and _cycles(match[ours.walls]) == _cycles(theirs.walls)
-
-
-def _cycles(triangles: Ints) -> set[tuple[int, ...]]:
-    """Triangles from their lowest corner on."""
-    return {tuple(int(v) for v in np.roll(row, -int(np.argmin(row)))) for row in triangles}
 
 
 def add_surface(shell: Shell, piece: Piece, left_out: Collection[Facet]) -> None:

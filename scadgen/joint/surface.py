@@ -23,6 +23,10 @@ __all__ = ["Surface", "chain", "half_turn", "join", "simplify"]
 _SAME = 1e-9
 
 
+#: Shapes are the same within this, in sides: far below what is printed.
+_ALIKE = 1e-6
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Surface:
     """A closed surface, in sides, with the connector's edge along +x.
@@ -45,6 +49,31 @@ class Surface:
     def loops(self, facet: Facet) -> list[list[int]]:
         """Closed outlines of a facet."""
         return chain(self.outlines[facet])
+
+    def is_like(self, other: Surface) -> bool:
+        """Whether it is the same shape, however it is numbered."""
+        sizes = [(len(one.points), len(one.walls), set(one.outlines)) for one in (self, other)]
+        if sizes[0] != sizes[1]:
+            return False
+        far, found = cKDTree(other.points).query(self.points)
+        match = np.asarray(found)
+        if np.max(far) > _ALIKE or len(np.unique(match)) < len(match):
+            return False
+        return _same_rows(_cycles(match[self.walls]), _cycles(other.walls)) and all(
+            _same_rows(match[sides], other.outlines[facet])
+            for facet, sides in self.outlines.items()
+        )
+
+
+def _cycles(triangles: Ints) -> Ints:
+    """Triangles, each with its lowest corner first."""
+    corners = (triangles.argmin(axis=1)[:, None] + np.arange(3)) % 3
+    return np.take_along_axis(triangles, corners, axis=1)
+
+
+def _same_rows(ours: Ints, theirs: Ints) -> bool:
+    """Whether two tables have the same rows in some order."""
+    return sorted(ours.tolist()) == sorted(theirs.tolist())
 
 
 def chain(sides: Ints) -> list[list[int]]:

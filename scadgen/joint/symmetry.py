@@ -19,10 +19,11 @@ _STRAIGHT = 1e-6
 
 
 def lopsided(gaps: Floats, keys: Collection[int]) -> NDArray[np.bool_]:
-    """The gaps whose wall is beside the first edge, and would be beside the other turned over.
+    """The gaps whose wall is nearer one edge, the first, though neither has a better claim.
 
     They are those between two keys, and those of more than half a turn beside none: connectors
-    that part at a wall far across the ring would swing into each other.
+    that part at a wall far across the ring would swing into each other.  A joint that has one is
+    another one turned over.
 
     Parameters
     ----------

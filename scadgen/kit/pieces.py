@@ -219,7 +219,6 @@ def _tried(made: Joint, style: str, extra: int, keys: Sequence[int], *, bored: b
     for edge in keys:
         first, flip = made.alike[edge]
         half_a, half_b = (piece[surface] for surface in over[first])
-        half_b = half_a if half_a.is_like(half_b) else half_b
         halves[edge] = (half_b, half_a) if flip else (half_a, half_b)
     solids = itertools.chain(
         (connector(key, whole) for whole in wholes.values()),
@@ -236,7 +235,7 @@ def _tried(made: Joint, style: str, extra: int, keys: Sequence[int], *, bored: b
 def _turned_over(first: Surface, second: Surface) -> tuple[Surface, Surface]:
     """Half A, and half B turned over, which is half A where they are alike."""
     over = half_turn(second)
-    return first, first if np.array_equal(over.points, first.points) else over
+    return first, first if first.is_like(over) else over
 
 
 def _limit(solid: AffineSolid, key: Key) -> float:
