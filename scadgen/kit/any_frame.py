@@ -8,8 +8,8 @@ half B where that is another part.  Edge elements are numbered.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
-from dataclasses import astuple, dataclass, replace
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -27,6 +27,7 @@ from scadgen.frame.sameness import Sameness, joint_name, sameness
 from scadgen.joint.symmetry import Symmetry
 from scadgen.joint.weave import Weave, any_joint
 from scadgen.kit.apart import Apart
+from scadgen.kit.elements import ElementEnd, Elements, edge_elements, firsts
 from scadgen.kit.model import Joint, Kit
 from scadgen.kit.pieces import Pieces
 from scadgen.kit.ranges import LONGEST, SIDE, check_values, edge_range, ranges
@@ -53,48 +54,6 @@ _MODEST = {"clearance": 0.06, "peg_clearance": 0.1, "peg_length": 1.5}
 
 #: What is added to a ring ratio until walls keep away from the ring's edges: they hardly move.
 _WIDER = (0.0, 0.05, 0.1, 0.15, 0.2, 0.3)
-
-
-@dataclass(frozen=True, slots=True)
-class _End:
-    """An end of an element.
-
-    Parameters
-    ----------
-    number
-        Of its kind of joint.
-    slot
-        Whose connector it is; None if it is a socket.
-    over
-        Whether the connector is turned over.
-    """
-
-    number: int
-    slot: int | None
-    over: bool
-
-
-@dataclass(frozen=True, slots=True)
-class _Element:
-    """An edge element: what is at its ends, and its length in edge lengths."""
-
-    near: _End
-    far: _End
-    length: float
-
-    @property
-    def ends(self) -> tuple[_End, _End]:
-        """Both ends."""
-        return self.near, self.far
-
-
-@dataclass(frozen=True, slots=True)
-class _Laid:
-    """The element on an edge: its name, whether it is turned about, and over."""
-
-    name: str
-    swapped: bool
-    flipped: bool
 
 
 def build_frame(
@@ -273,18 +232,6 @@ def _check_alike(pieces: Pieces, symmetry: Symmetry) -> None:
             raise InvariantError(msg)
 
 
-def _firsts(values: Sequence[Hashable]) -> list[int]:
-    """For each value, which is the first that is the same."""
-    return [values.index(value) for value in values]
-
-
-def _rounded(key: Key) -> tuple[Hashable, ...]:
-    """All that a key is; the same for those that differ by rounding."""
-    return tuple(
-        round(value, _DECIMALS) if isinstance(value, float) else value for value in astuple(key)
-    )
-
-
 @dataclass(frozen=True, eq=False)
 class _Build:
     """What a frame's parts and placements are made from."""
@@ -300,37 +247,11 @@ class _Build:
         return round(_shortest(self.same), _LENGTH_DECIMALS)
 
     @cached_property
-    def elements(self) -> dict[str, _Element]:
-        """The kinds of edge elements by name."""
-        return self._elements[0]
-
-    @cached_property
-    def _elements(self) -> tuple[dict[str, _Element], list[_Laid]]:
-        """The kinds of edge elements by name, and which is laid on each edge."""
-        sockets = _firsts([_rounded(one.key) for one in self.pieces])
+    def elements(self) -> Elements:
+        """Its edge elements."""
         lengths = (self.same.lengths / self.unit).round(_DECIMALS)
-        alike = self.kinds.ends(self.frame.edges, lengths, sockets).alike()
-        names = [f"edge_{n}" for n in range(1, len(alike.what) + 1)]
-        elements = (
-            _Element(self._end(what[0], over[0]), self._end(what[1], over[1]), length)
-            for what, over, length in zip(
-                alike.what.tolist(), alike.over.tolist(), alike.length.tolist(), strict=True
-            )
-        )
-        laid = zip(
-            alike.which.tolist(), alike.swapped.tolist(), alike.flipped.tolist(), strict=True
-        )
-        return (
-            dict(zip(names, elements, strict=True)),
-            [_Laid(names[n], about, over) for n, about, over in laid],
-        )
-
-    def _end(self, what: int, over: bool) -> _End:  # noqa: FBT001
-        """What `Kinds.ends` has a number for."""
-        count = len(self.kinds.kinds)
-        if what < count:
-            return _End(what, None, over=False)
-        return _End(*divmod(what - count, self.kinds.most), over)
+        keys = [one.key for one in self.pieces]
+        return edge_elements(self.kinds, self.frame.edges, lengths, keys)
 
     def limits(self) -> tuple[Range, ...]:
         """What the live parameters may be, so that all joints and elements are sound."""
@@ -349,7 +270,7 @@ class _Build:
         of_joints = ranges(tightest, clearance, hole)
         of_edges = [
             edge_range([(keys[end.number], end.slot is None) for end in one.ends], one.length)
-            for one in self.elements.values()
+            for one in self.elements.kinds.values()
         ]
         return (
             *(limit for limit in of_joints if limit.parameter != "edge_length"),
@@ -359,8 +280,9 @@ class _Build:
     def parts(self) -> dict[str, AffineSolid]:
         """Every part: the elements, the connectors, the halves, the pegs."""
         solids = [
-            part(name, self._surface(one.near), self._surface(one.far), {"edge_length": one.length})
-            for name, one in self.elements.items()
+            part(name, near, far, {"edge_length": one.length})
+            for name, one in self.elements.kinds.items()
+            for near, far in [map(self._surface, one.ends)]
         ]
         symmetries = self.kinds.symmetries
         for number, one in enumerate(self.pieces):
@@ -379,7 +301,7 @@ class _Build:
         ]
         return {solid.name: solid for solid in solids}
 
-    def _surface(self, end: _End) -> End:
+    def _surface(self, end: ElementEnd) -> End:
         one = self.pieces[end.number]
         if end.slot is None:
             return key_end(one.key)
@@ -399,7 +321,7 @@ class _Build:
 
     def _peg(self, number: int) -> str:
         """Name of a joint's peg: those that start in the same place are the same."""
-        alike = _firsts([round(one.key.pad, _DECIMALS) for one in self.pieces])
+        alike = firsts([round(one.key.pad, _DECIMALS) for one in self.pieces])
         return f"peg_{joint_name(alike[number])}" if any(alike) else "peg"
 
     def joint(self, number: int) -> Joint:
@@ -459,13 +381,13 @@ class _Build:
         directions = [self.kinds.directions(vertex) for vertex in range(len(vertices))]
         used: list[set[int]] = [set() for _ in vertices]
         for pair, slots, laid in zip(
-            self.frame.edges.tolist(), self.kinds.slots.tolist(), self._elements[1], strict=True
+            self.frame.edges.tolist(), self.kinds.slots.tolist(), self.elements.laid, strict=True
         ):
             for vertex, slot in zip(pair, slots, strict=True):
                 used[vertex].add(slot)
             vertex, slot = pair[laid.swapped], slots[laid.swapped]
             turn = round(float(np.degrees(directions[vertex][slot])), _DECIMALS) % 360
-            ends = self.elements[laid.name].ends
+            ends = self.elements.kinds[laid.name].ends
             role = "cross" if any(end.slot is None for end in ends) else "row"
             at = (float(vertices[vertex, 0]), float(vertices[vertex, 1]))
             yield Placement(laid.name, at, turn, laid.flipped, role)

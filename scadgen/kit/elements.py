@@ -1,0 +1,120 @@
+"""Which edge element is on each edge of a frame, and which way it lies there."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import astuple, dataclass
+
+from scadgen.element.squares import Key
+from scadgen.frame.kinds import Kinds
+from scadgen.solid.affine import Floats, Ints
+
+__all__ = ["Element", "ElementEnd", "Elements", "Laid", "edge_elements", "firsts"]
+
+#: Decimals to which keys are compared, in sides.
+_DECIMALS = 9
+
+
+@dataclass(frozen=True, slots=True)
+class ElementEnd:
+    """An end of an element.
+
+    Parameters
+    ----------
+    number
+        Of its kind of joint.
+    slot
+        Whose connector it is; None if it is a socket.
+    over
+        Whether the connector is turned over.
+    """
+
+    number: int
+    slot: int | None
+    over: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Element:
+    """A kind of edge element.
+
+    Parameters
+    ----------
+    ends
+        What is at its near end and at its far one.
+    length
+        In edge lengths.
+    """
+
+    ends: tuple[ElementEnd, ElementEnd]
+    length: float
+
+
+@dataclass(frozen=True, slots=True)
+class Laid:
+    """The element on an edge: its name, whether it is turned about, and over."""
+
+    name: str
+    swapped: bool
+    flipped: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Elements:
+    """A frame's edge elements.
+
+    Parameters
+    ----------
+    kinds
+        By name.
+    laid
+        That on each edge.
+    """
+
+    kinds: Mapping[str, Element]
+    laid: Sequence[Laid]
+
+
+def edge_elements(kinds: Kinds, edges: Ints, lengths: Floats, keys: Sequence[Key]) -> Elements:
+    """The fewest elements for a frame's edges.
+
+    Parameters
+    ----------
+    kinds
+        What stands at its vertices.
+    edges
+        ``(m, 2) int``: the frame's.
+    lengths
+        ``(m,) float``: theirs, in edge lengths; the same for those that may be the same part.
+    keys
+        What the keys of each kind of joint are like.
+    """
+    alike = kinds.ends(edges, lengths, firsts([_rounded(key) for key in keys])).alike()
+    found: dict[str, Element] = {}
+    table = zip(alike.what.tolist(), alike.over.tolist(), alike.length.tolist(), strict=True)
+    for what, over, length in table:
+        near, far = (_end(kinds, *end) for end in zip(what, over, strict=True))
+        found[f"edge_{len(found) + 1}"] = Element((near, far), length)
+    names = list(found)
+    laid = zip(alike.which.tolist(), alike.swapped.tolist(), alike.flipped.tolist(), strict=True)
+    return Elements(found, [Laid(names[n], swapped, flipped) for n, swapped, flipped in laid])
+
+
+def _end(kinds: Kinds, what: int, over: bool) -> ElementEnd:  # noqa: FBT001
+    """What `Kinds.ends` has a number for."""
+    count = len(kinds.kinds)
+    if what < count:
+        return ElementEnd(what, None, over=False)
+    return ElementEnd(*divmod(what - count, kinds.most), over)
+
+
+def firsts(values: Sequence[Hashable]) -> list[int]:
+    """For each value, which is the first that is the same."""
+    return [values.index(value) for value in values]
+
+
+def _rounded(key: Key) -> tuple[Hashable, ...]:
+    """All that a key is; the same for those that differ by rounding."""
+    return tuple(
+        round(value, _DECIMALS) if isinstance(value, float) else value for value in astuple(key)
+    )
