@@ -73,7 +73,7 @@ def test_share_by_hand():
     curves = curves_of("square")
     points = np.array([[1.5, 0, 0], [-1.5, 0, 0], [0, 1.5, 0], [2.0, 0, 0]])
     assert share(curves, 0, points) == 0.5
-    assert share(curves, 1, points) == 0.25
+    assert share(curves, 1, points) == 0.5
 
 
 def test_a_box_with_a_wall_right_in_its_middle_is_foreign():

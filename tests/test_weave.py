@@ -145,11 +145,25 @@ def test_edges_too_near_each_other_for_any_ring_are_refused():
 
 
 def test_turned_about_the_axis():
-    one, other = curve(), curve().turned(0.3)
+    one, other = curve(), SiteCurve(Weave(**GOOD), 0.3, GAP / 2, GAP / 2, 60)
     c, s = math.cos(0.3), math.sin(0.3)
     turn = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+    assert np.allclose(other.turn, turn, atol=1e-15)
     u = np.linspace(-1, 1, 9)
     assert np.allclose(other.points(u), one.points(u) @ turn, atol=1e-14)
+
+
+@pytest.mark.parametrize("samples", [60, 120, 240])
+@pytest.mark.parametrize("after", [GAP / 2, GAP / 3])
+def test_a_distance_is_between_what_the_nearest_sample_tells(samples, after):
+    site = SiteCurve(Weave(**GOOD), 0.4, after, GAP / 2, samples)
+    points = np.random.default_rng(3).uniform([-3, -3, -0.6], [3, 3, 0.6], (4000, 3))
+    exact, (far, near) = site.distance(points)[0], site.from_sample(points)
+    assert np.allclose(far, np.linalg.norm(points - site.points(near), axis=1), atol=1e-7)
+    assert (exact <= far + 1e-7).all()
+    assert (exact >= site.at_least(far) - 1e-7).all()
+    # Both are close to it, so that few points are left whose nearest curve they do not tell.
+    assert (far - site.at_least(far)).mean() < 30 / samples**2
 
 
 def test_distance_from_a_straight_curve_by_hand():

@@ -238,8 +238,7 @@ def _off_wall(made: MadeJoint, edge: int) -> Floats:
     connector = made.connectors[edge]
     weights = np.array([[1, 1, 1], [1, 1, 0], [0, 1, 1], [1, 0, 1]]) / [[3], [2], [2], [2]]
     points = np.einsum("qk,tkx->tqx", weights, connector.points[connector.walls]).reshape(-1, 3)
-    angle = float(made.edges[edge])
-    found = [curve.turned(-angle).distance(points) for curve in made.curves]
+    found = [curve.distance(points @ made.curves[edge].turn) for curve in made.curves]
     far, slope = np.stack([d for d, _ in found]), np.stack([g for _, g in found])
     near, next_ = np.argsort(far, axis=0)[:2]
     row = np.arange(len(points))

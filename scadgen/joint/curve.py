@@ -7,18 +7,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
-from scipy.spatial import cKDTree
 
 from scadgen.joint.weave import Weave
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["SiteCurve", "distances", "slopes"]
+__all__ = ["SiteCurve", "distances", "nearest_curve", "slopes"]
 
 #: How gently an arm that followed the ring begins to weave, in sides.
 _GENTLE = 0.25
@@ -29,6 +28,13 @@ _STEPS = 5
 
 #: A step smaller than this, in a curve's parameter, is not taken: by its square distances change.
 _STILL = 1e-8
+
+#: Points whose samples are compared at once: what that takes stays in a processor's cache.
+_CHUNK = 2048
+
+#: Between two samples a curve is looked at so many times for how it bends, and may bend by this
+#: much more than is found.
+_FINER, _SHARPER = 4, 1.25
 
 
 class _Vectors(NamedTuple):
@@ -86,23 +92,25 @@ class SiteCurve:
         self, weave: Weave, angle: float, after: float, before: float, samples: int
     ) -> None:
         self.weave = weave
-        self._arguments = (after, before, samples)
         gaps = 2 * weave.ring_ratio * np.array([before, after])
         woven = np.minimum(gaps, gaps.max() if weave.stretch is None else weave.stretch)
         plain, reach = (gaps - woven) / 2, weave.span * woven
         rate = np.array([_way_of(*pair) for pair in zip(reach, plain, strict=True)])
         self.arms = _Arms(np.array(angle), plain, reach, rate)
-        self.spacing = 2.0 / (samples - 1)
         # Sides that differ meet at an angle, which no step towards a nearest point may cross.
         self.is_smooth = bool(np.allclose([reach[0], plain[0]], [reach[1], plain[1]], 0, 1e-9))
-        self._parameters = np.linspace(-1.0, 1.0, samples)
         if not self.is_smooth:
-            self._parameters = np.union1d(self._parameters, [0.0])
-        self._tree = cKDTree(self.points(self._parameters))
+            samples |= 1
+        self.spacing = 2.0 / (samples - 1)
+        self._parameters = np.linspace(-1.0, 1.0, samples)
+        places = self.points(self._parameters)
+        self._twice, self._squares = -2 * places.T, (places**2).sum(axis=1)
 
-    def turned(self, angle: float) -> SiteCurve:
-        """The curve turned about the ring's axis."""
-        return SiteCurve(self.weave, float(self.arms.angle) + angle, *self._arguments)
+    @property
+    def turn(self) -> Floats:
+        """What turns rows ``(..., 3)`` from where its edge is +x to where it is, ``(3, 3)``."""
+        along, across = np.cos(self.arms.angle), np.sin(self.arms.angle)
+        return np.array([[along, across, 0.0], [-across, along, 0.0], [0.0, 0.0, 1.0]])
 
     def points(self, u: Floats) -> Floats:
         """Points of the curve: ``u`` in [-1, 1], shape ``(...)``, gives ``(..., 3)``."""
@@ -127,15 +135,40 @@ class SiteCurve:
         return slopes([self], points, np.zeros(len(points), dtype=np.intp))
 
     def from_sample(self, points: Floats) -> tuple[Floats, Floats]:
-        """Distance from the nearest sample, ``(k,)``, above the curve's, and its parameter."""
-        distance, sample = self._tree.query(points)
-        return np.asarray(distance, dtype=np.float64), self._parameters[sample]
+        """Distance from the nearest sample, ``(k,)``, no less than the curve's, and its parameter.
+
+        What is compared is squared distances less those of the points from the origin.
+        """
+        sample, square = np.empty(len(points), dtype=np.intp), np.einsum("ki,ki->k", points, points)
+        for start in range(0, len(points), _CHUNK):
+            some = slice(start, start + _CHUNK)
+            far = points[some] @ self._twice
+            far += self._squares
+            sample[some] = nearest = far.argmin(axis=1)
+            square[some] += far[np.arange(len(far)), nearest]
+        return np.sqrt(np.maximum(square, 0.0)), self._parameters[sample]
+
+    def at_least(self, distance: Floats) -> Floats:
+        """What points are from the curve at least if they are so far from the nearest sample.
+
+        Between the nearest point f of the curve and the sample s nearest to that lies an arc of at
+        most l, half of that between two samples.  The way from a point p to f is square to the
+        curve there, so that s - f is off by no more than k l^2 / 2 along it, where the curve bends
+        by k at most: |p - s|^2 <= |p - f|^2 + k l^2 |p - f| + l^2.
+        """
+        arc, bend = self._between_samples
+        return np.asarray(np.sqrt(np.maximum(distance**2 - arc**2 * (1 + bend * distance), 0.0)))
 
     @cached_property
-    def between_samples(self) -> float:
-        """By how much a distance from the nearest sample may be above the curve's, in sides."""
-        samples = np.asarray(self._tree.data)
-        return float(np.linalg.norm(np.diff(samples, axis=0), axis=1).max())
+    def _between_samples(self) -> tuple[float, float]:
+        """Half the longest arc between two samples, in sides, and how much it bends at most."""
+        u = np.linspace(-1.0, 1.0, (len(self._parameters) - 1) * _FINER + 1)
+        place, first, second = _Curves([self]).derivatives(np.zeros(len(u), dtype=np.intp), u)
+        ways = np.linalg.norm(np.diff(place.stacked(), axis=0), axis=1)
+        arc = float(ways.reshape(-1, _FINER).sum(axis=1).max()) / 2
+        across = np.cross(first.stacked(), second.stacked())
+        bend = np.linalg.norm(across, axis=1) / first.dot(first) ** 1.5
+        return _SHARPER * arc, _SHARPER * float(bend.max())
 
 
 def distances(
@@ -160,15 +193,40 @@ def distances(
         ``(curves, ...) float``, in sides.
     """
     flat = points.reshape(-1, 3)
-    sampled = [curve.from_sample(flat) for curve in curves]
-    found = np.stack([far for far, _ in sampled])
+    found, near = _sampled(curves, flat)
     limit = found.min(axis=0) + np.broadcast_to(beyond, points.shape[:-1]).ravel()
-    coarse = np.array([curve.between_samples for curve in curves])
-    which, row = np.nonzero(found <= limit + coarse[:, None])
-    near = np.stack([u for _, u in sampled])[which, row]
-    away = _Curves(curves).away(which, flat[row], near)
+    which, row = np.nonzero(_least(curves, found) <= limit)
+    away = _together(tuple(curves)).away(which, flat[row], near[which, row])
     found[which, row] = np.sqrt(away.dot(away))
     return found.reshape(len(curves), *points.shape[:-1])
+
+
+def nearest_curve(curves: Sequence[SiteCurve], points: Floats) -> Ints:
+    """Which curve each point is nearest to, ``(...)``.
+
+    Parameters
+    ----------
+    curves, points
+        As for `distances`.
+    """
+    flat = points.reshape(-1, 3)
+    found, _ = _sampled(curves, flat)
+    nearest = np.asarray(found.argmin(axis=0))
+    # Mostly the samples of one curve alone are near enough.
+    contested = np.flatnonzero((_least(curves, found) <= found.min(axis=0)).sum(axis=0) > 1)
+    nearest[contested] = distances(curves, flat[contested], beyond=0.0).argmin(axis=0)
+    return nearest.reshape(points.shape[:-1])
+
+
+def _sampled(curves: Sequence[SiteCurve], points: Floats) -> tuple[Floats, Floats]:
+    """Distances from the nearest samples of curves, and their parameters, ``(curves, k)``."""
+    found, near = zip(*(curve.from_sample(points) for curve in curves), strict=True)
+    return np.stack(found), np.stack(near)
+
+
+def _least(curves: Sequence[SiteCurve], found: Floats) -> Floats:
+    """What points are from curves at least, ``(curves, k)``, by the distance from their samples."""
+    return np.stack([curve.at_least(far) for curve, far in zip(curves, found, strict=True)])
 
 
 def slopes(curves: Sequence[SiteCurve], points: Floats, which: Ints) -> tuple[Floats, Floats]:
@@ -194,7 +252,7 @@ def slopes(curves: Sequence[SiteCurve], points: Floats, which: Ints) -> tuple[Fl
     for number, curve in enumerate(curves):
         mine = np.flatnonzero(which == number)
         near[mine] = curve.from_sample(points[mine])[1]
-    away = _Curves(curves).away(which, points, near)
+    away = _together(tuple(curves)).away(which, points, near)
     distance = np.sqrt(away.dot(away))
     return distance, away.stacked() / np.maximum(distance, np.finfo(float).tiny)[:, None]
 
@@ -208,8 +266,12 @@ class _Curves:
         self._arms = _Arms(*(np.stack(each) for each in arms))
         self._spacing = np.array([curve.spacing for curve in curves])
         self._bent = np.array([not curve.is_smooth for curve in curves])
-        all_of_them = np.arange(len(curves))
-        self._start, self._ahead, _ = self.derivatives(all_of_them, np.zeros(len(curves)))
+
+    @cached_property
+    def _corners(self) -> tuple[_Vectors, _Vectors]:
+        """Where their arms meet, and which way those after it go on."""
+        count = len(self._spacing)
+        return self.derivatives(np.arange(count), np.zeros(count))[:2]
 
     def derivatives(self, which: Ints, u: Floats) -> tuple[_Vectors, _Vectors, _Vectors]:
         """Position, first and second derivative by ``u``.
@@ -269,11 +331,17 @@ class _Curves:
         low, high = np.maximum(u - spacing, -1.0), np.minimum(u + spacing, 1.0)
         bent = self._bent[which]
         if bent.any():
-            off = _less(self._start.rows(which), points)
-            ahead = (u > 0) | ((u == 0) & (off.dot(self._ahead.rows(which)) < 0))
+            start, way = (each.rows(which) for each in self._corners)
+            ahead = (u > 0) | ((u == 0) & (_less(start, points).dot(way) < 0))
             low = np.where(bent & ahead, np.maximum(low, 0.0), low)
             high = np.where(bent & ~ahead, np.minimum(high, 0.0), high)
         return low, high
+
+
+@lru_cache(maxsize=4)
+def _together(curves: tuple[SiteCurve, ...]) -> _Curves:
+    """The same curves, which are asked for again and again."""
+    return _Curves(curves)
 
 
 def _woven(weave: Weave, length: Floats, reach: Floats) -> tuple[_Vectors, _Vectors, _Vectors]:

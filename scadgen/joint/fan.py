@@ -35,12 +35,12 @@ def fanned(
         corners = np.array([[position[c] for c in walls[n].corners] for n in numbers])
         labels = np.array([(walls[n].low, walls[n].high) for n in numbers])
         scores = [
-            np.stack([*_scores(np.roll(corners, -turn, axis=1), labels, curves)], axis=1)
+            np.stack([*_scores(np.roll(corners, -turn, axis=1), labels, curves)], axis=1).tolist()
             for turn in range(count)
         ]
         for row, number in enumerate(numbers):
             wedge = walls[number]
-            best = min(range(count), key=lambda n: (*scores[n][row].tolist(), wedge.corners[n]))
+            best = min(range(count), key=lambda n: (*scores[n][row], wedge.corners[n]))
             turned = (*wedge.corners[best:], *wedge.corners[:best])
             result[number] = replace(wedge, corners=turned)
     return result

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -211,8 +211,8 @@ def make_joint(
     position: dict[Key, Floats] = dict(zip(corners, places, strict=True))
     walls = merge_short_sides(walls, position, 1 / detail.cells)
     walls = fanned(walls, position, curves)
-    for index in np.ndindex(labels.shape):
-        position["node", 0, index[0], index[1], index[2]] = lattice.nodes[index]
+    nodes: Iterator[Key] = (("node", 0, i, j, k) for i, j, k in np.ndindex(labels.shape))
+    position.update(zip(nodes, lattice.nodes.reshape(-1, 3), strict=True))
     pairs = {edge: halves(lattice, labels, walls, position, edge) for edge in computed}
     for edge, (first, _) in pairs.items():
         if _mirrored(steps, 2 * edge):
@@ -261,13 +261,11 @@ def check_footprint(lattice: Lattice, curves: Sequence[SiteCurve], edge: int) ->
         It does not: says what share of it does.
     """
     low, high = np.array([lattice.tube_start, -0.5, -0.5]), np.array([lattice.tube_start, 0.5, 0.5])
-    angle = float(lattice.edges[edge])
-    turned = tuple(curve.turned(-angle) for curve in curves)
-    if belongs(turned, edge, low, high, margin=0.0):
+    if belongs(curves, edge, low, high, margin=0.0):
         return
     grid = np.stack(np.meshgrid(low[:1], *[np.linspace(-0.5, 0.5, 41)] * 2), axis=-1).reshape(-1, 3)
     msg = (
-        f"weave {curves[edge].weave.name}: only {share(turned, edge, grid):.1%} of a tube's face "
+        f"weave {curves[edge].weave.name}: only {share(curves, edge, grid):.1%} of a tube's face "
         "belongs to its own connector; a smaller span or a smaller bend helps"
     )
     raise FaceError(msg)

@@ -101,7 +101,7 @@ class _Steps:
         done = short[np.arange(len(idle)), worst] <= _EXACT
         self.found[idle[done]] = True
         self._wanted[idle], self._own[idle] = np.where(done, -1, worst), 0.0
-        self.going = np.setdiff1d(self.going, idle[done], assume_unique=True)
+        self.going = self.going[~self.found[self.going]]
 
     def _settle(self, now: Ints, place: Ints, whole: NDArray[np.bool_]) -> None:
         """After a whole step a row limits the point; after a partial one another does no more."""

@@ -82,11 +82,14 @@ class _Cut:
     def __init__(self, lattice: Lattice, labels: Ints, edge: int) -> None:
         self._lattice = lattice
         self._label = edge
-        self._labels = labels
         self._plane = int(lattice.edge_planes[edge])
         # The planes on which the label is, and those before them.
-        here = (labels == edge).any(axis=(1, 2))
+        mine = labels == edge
+        here = mine.any(axis=(1, 2))
         self._planes = np.flatnonzero(here | np.roll(here, -1)).tolist()
+        self._mine: list[list[list[bool]]] = mine.tolist()
+        # Of the inner side's flat faces and the outer's: how many there are, and the connector's.
+        self._faces = [(int(lattice.strips[n].max()) + 1, lattice.flat(n, edge)) for n in (0, 1)]
 
     def _sided(self, key: Key, cell: int) -> _Sided:
         kind, axis, i, _, _ = key
@@ -103,10 +106,8 @@ class _Cut:
             return ("split", 1 if cell == self._plane else -1) if own else None
         if kind in ("top", "bottom"):
             return facet
-        side = int(kind == "outer")
-        count = int(self._lattice.strips[side].max()) + 1
-        offset = number - self._lattice.flat(side, self._label)
-        return kind, (offset + count // 2) % count - count // 2
+        count, ahead = self._faces[kind == "outer"]
+        return kind, (number - ahead + count // 2) % count - count // 2
 
     def wall(self, wedge: Wedge) -> tuple[_Sided, ...]:
         """A wall's polygon, counter-clockwise from outside, with the same first corner."""
@@ -148,14 +149,21 @@ class _Cut:
 
     def _part_of_edge(self, axis: int, index: _Index) -> tuple[Key, Key] | None:
         """The ends of that part of a lattice edge that carries the label."""
-        after = list(index)
-        after[axis] = (after[axis] + 1) % (len(self._lattice.planes) if axis == 0 else 1 << 30)
-        nodes: tuple[Key, Key] = ("node", 0, *index), ("node", 0, after[0], after[1], after[2])
-        has = [int(self._labels[node[2:]]) == self._label for node in nodes]
-        if not any(has):
+        i, j, k = index
+        if axis == 0:
+            i = (i + 1) % len(self._mine)
+        elif axis == 1:
+            j += 1
+        else:
+            k += 1
+        mine, mine_after = self._mine[index[0]][index[1]][index[2]], self._mine[i][j][k]
+        if not (mine or mine_after):
             return None
         middle: Key = ("edge", axis, *index)
-        return nodes[0] if has[0] else middle, nodes[1] if has[1] else middle
+        return (
+            ("node", 0, *index) if mine else middle,
+            ("node", 0, i, j, k) if mine_after else middle,
+        )
 
     def _domain_edges(self) -> Iterator[tuple[int, _Index, list[tuple[int, _Index, int]]]]:
         """Lattice edges between two facets, near the label: axis, index, faces.

@@ -6,7 +6,6 @@ windows into them, glue surfaces together, and triangulate once at the end.
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
@@ -110,12 +109,11 @@ def _compact(points: Floats, walls: Ints, outlines: Mapping[Facet, Ints]) -> Sur
 
 def simplify(surface: Surface) -> Surface:
     """Drop the vertices inside straight edges between two facets."""
-    facets_at: dict[int, set[Facet]] = defaultdict(set)
-    for facet, sides in surface.outlines.items():
-        for vertex in sides[:, 0].tolist():
-            facets_at[vertex].add(facet)
-    on_walls = set(surface.walls.ravel().tolist())
-    spare = {v for v, found in facets_at.items() if len(found) == 2 and v not in on_walls}
+    facets_at = np.zeros(len(surface.points), dtype=np.intp)
+    for sides in surface.outlines.values():
+        facets_at[sides[:, 0]] += 1
+    facets_at[surface.walls] = 0
+    spare = set(np.flatnonzero(facets_at == 2).tolist())
     outlines = {}
     for facet in surface.outlines:
         loops = [[v for v in loop if v not in spare] for loop in surface.loops(facet)]

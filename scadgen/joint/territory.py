@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from scadgen.joint.curve import SiteCurve, distances
+from scadgen.joint.curve import SiteCurve, distances, nearest_curve
 from scadgen.joint.lattice import Lattice
 from scadgen.solid.affine import Floats
 
@@ -37,14 +37,15 @@ def belongs(
     own
         The cell's curve.
     low, high
-        Corners of the box, ``(3,) float``; a box may be flat.
+        Corners of the box, ``(3,) float``, with the curve's edge turned to +x; it may be flat.
     margin
         Distance to the walls, in sides, at least zero.
     """
     middle, extent = ((low + high) / 2)[None], (high - low) / 2
+    turn = curves[own].turn
     for _ in range(_HALVINGS):
         needed = 2 * (margin + float(np.linalg.norm(extent)))
-        lead = _lead(curves, own, middle, needed)
+        lead = _lead(curves, own, middle @ turn, needed)
         if (lead <= 2 * margin).any():
             return False
         middle = middle[lead <= needed]
@@ -57,8 +58,8 @@ def belongs(
 
 
 def share(curves: Sequence[SiteCurve], own: int, points: Floats) -> float:
-    """Share of points that are in one cell."""
-    return float((_lead(curves, own, points, 0.0) > 0).mean())
+    """Share of points, with the curve's edge turned to +x, that are in its cell."""
+    return float((nearest_curve(curves, points @ curves[own].turn) == own).mean())
 
 
 def _lead(curves: Sequence[SiteCurve], own: int, points: Floats, most: float) -> Floats:
@@ -93,8 +94,9 @@ def arm(lattice: Lattice, curves: Sequence[SiteCurve], edge: int, walls: Floats)
     ahead = (lattice.planes - directions[edge]) % (2 * np.pi)
     behind = (directions[edge] - lattice.planes) % (2 * np.pi)
     near = (ahead <= walls[edge] + _ROUNDING) | (behind <= gap - walls[edge - 1] + _ROUNDING)
-    nodes = lattice.nodes[near]
-    share = np.linspace(0, 1, nodes.shape[1])
+    # At the faces themselves there is no room for any ball.
+    nodes = lattice.nodes[near, 1:-1, 1:-1]
+    share = np.linspace(0, 1, lattice.nodes.shape[1])[1:-1]
     face = np.minimum.outer(np.minimum(share, 1 - share), np.minimum(share, 1 - share))
     ball = np.minimum(
         _lead(curves, edge, nodes.reshape(-1, 3), 1.0).reshape(nodes.shape[:3]) / 2, face

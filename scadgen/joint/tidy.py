@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from scadgen.joint.curve import SiteCurve, distances
+from scadgen.joint.curve import SiteCurve, nearest_curve
 from scadgen.joint.lattice import Lattice
 from scadgen.joint.walls import Facet, Key, Wedge
 from scadgen.solid.affine import Floats
@@ -58,7 +58,7 @@ def corners_in_the_way(lattice: Lattice, curves: Sequence[SiteCurve]) -> NDArray
         points[..., 0] = radius * np.cos(angle)[..., None]
         points[..., 1] = radius * np.sin(angle)[..., None]
         points[..., 2] = height
-        label = distances(curves, points, beyond=0.0).argmin(axis=0)
+        label = nearest_curve(curves, points)
         passed = (label[:, 1] != label[:, 2]).mean(axis=1) > _ALONG
         for rim, near in (
             (height == height[0], height < _ROOM - 0.5),

@@ -103,6 +103,12 @@ def _around(
     each run of cells between two faces that lie on facets is a polygon.
     """
     b, c = (axis + 1) % 3, (axis + 2) % 3
+    if _is_inside(lattice, axis, index):
+        cells = [_cell(lattice, _moved(lattice, index, move)) for move in ({b: -1}, {}, {c: -1})]
+        cells.append(_cell(lattice, _moved(lattice, index, {b: -1, c: -1})))
+        corners = tuple(cell for cell in cells if cell)
+        yield corners, (), corners[0][2]
+        return
     # In this order: clockwise from the edge's end, for the lattice's axes are left-handed.
     circle = [
         (_cell(lattice, _moved(lattice, index, {b: db, c: dc})), face, facet)
@@ -114,11 +120,7 @@ def _around(
         )
         for face, facet in [_face(lattice, normal, _moved(lattice, index, move))]
     ]
-    first = next((n for n, (_, _, facet) in enumerate(circle) if facet), None)
-    if first is None:
-        corners = tuple(cell for cell, _, _ in reversed(circle) if cell)
-        yield corners, (), corners[0][2]
-        return
+    first = next(n for n, (_, _, facet) in enumerate(circle) if facet)
     flat = len({facet for _, _, facet in circle if facet}) == 1
     middle: tuple[Key, ...] = () if flat else (("edge", axis, *index),)
     _, end, end_facet = circle[first]
@@ -131,6 +133,17 @@ def _around(
                 corners = (face, *reversed(run), end, *middle)
                 yield corners, _borders(corners, facet, end_facet), run[0][2]
             end, end_facet, run = face, facet, []
+
+
+def _is_inside(lattice: Lattice, axis: int, index: tuple[int, int, int]) -> bool:
+    """Whether no face at a lattice edge lies on a facet."""
+    _, radii, heights, _ = lattice.nodes.shape
+    i, j, k = index
+    return (
+        (axis == 0 or i not in lattice.edge_at)
+        and (axis == 1 or 0 < j < radii - 1)
+        and (axis == 2 or 0 < k < heights - 1)
+    )
 
 
 def _borders(corners: tuple[Key, ...], first: Facet, last: Facet) -> tuple[Border, ...]:

@@ -267,17 +267,13 @@ def _key(made: Joint, style: str, keys: Sequence[int], *, bored: bool) -> Key:
     lattice = made.lattice
     start, pad = lattice.tube_start, lattice.pad
     through = bored or style == "loose"
-    turned = [
-        tuple(curve.turned(-float(made.edges[edge])) for curve in made.curves) for edge in keys
-    ]
     best = (0.0, 0.0)
     for depth, window in _windows(start - pad, lattice.pad_half_width, through=through):
         if best[0] >= _DEPTH or (depth, window) <= best:
             continue
         low = np.array([start - depth, -window, -window])
         high = np.array([start, window, window])
-        pairs = zip(turned, keys, strict=True)
-        if all(belongs(curves, edge, low, high, margin=WALL) for curves, edge in pairs):
+        if all(belongs(made.curves, edge, low, high, margin=WALL) for edge in keys):
             best = depth, window
     depth, window = best
     if not depth:

@@ -125,6 +125,11 @@ def components(triangles: Ints, through: Literal["edges", "vertices"] = "edges")
     else:
         vertices, link = np.unique(triangles, return_inverse=True)
         link, count = link.reshape(-1), len(vertices)
+    return _shells(triangles, link, count)
+
+
+def _shells(triangles: Ints, link: Ints, count: int) -> int:
+    """Parts of a mesh whose faces hang together through what links their corners, so many."""
     face = np.repeat(np.arange(len(triangles)), 3)
     return _labels(len(triangles) + count, face, len(triangles) + link)[0]
 
@@ -141,8 +146,12 @@ def genus(triangles: Ints) -> int:
 
 def pinched_vertices(triangles: Ints) -> Ints:
     """Vertices of a closed mesh at which more than one fan of faces meets, ``(k,) int``."""
+    return _pinched(triangles, _edges(triangles)[1])
+
+
+def _pinched(triangles: Ints, edge: Ints) -> Ints:
+    """The same, by each half-edge's edge."""
     tail, _ = _half_edges(triangles)
-    _, edge, _, _ = _edges(triangles)
     # Each half-edge ties its two corners to the edge's own two sides, so corners at one
     # vertex hang together exactly when their faces do so around it.
     corner = np.arange(len(tail))
@@ -154,8 +163,9 @@ def pinched_vertices(triangles: Ints) -> Ints:
     total = count + 2 * (int(edge.max(initial=-1)) + 1)
     one = np.concatenate([corner, following])
     _, fan = _labels(total, one, np.concatenate([side_of_tail, side_of_head]))
-    pairs = np.unique(np.column_stack([tail, fan[:count]]), axis=0)
-    vertices, fans = np.unique(pairs[:, 0], return_counts=True)
+    # One number a pair, as for edges.
+    pairs = np.unique(tail * total + fan[:count])
+    vertices, fans = np.unique(pairs // total, return_counts=True)
     pinched: Ints = vertices[fans > 1]
     return pinched
 
@@ -190,16 +200,16 @@ def _degenerate(points: Floats, triangles: Ints) -> Ints:
 
 def _topology_faults(triangles: Ints) -> list[str]:
     faults = []
-    edges, _, uses, balance = _edges(triangles)
+    edges, which, uses, balance = _edges(triangles)
     open_ = edges[uses != 2]
     if len(open_):
         faults.append(_named("closed: edges without exactly two faces", open_))
     turned = edges[(uses == 2) & (balance != 0)]
     if len(turned):
         faults.append(_named("oriented: edges whose two faces run the same way", turned))
-    if (shells := components(triangles)) != 1:
+    if (shells := _shells(triangles, which, len(edges))) != 1:
         faults.append(f"one shell: {shells} shells")
-    pinched = pinched_vertices(triangles)
+    pinched = _pinched(triangles, which)
     if not len(open_) and len(pinched):
         faults.append(_named("one fan at a vertex: vertices where several meet", pinched))
     return faults

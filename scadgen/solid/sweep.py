@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scadgen.solid.affine import Floats, Ints
-from scadgen.solid.crossing import box_pairs, own_box_pairs
+from scadgen.solid.crossing import box_pairs, cross, own_box_pairs
 from scadgen.solid.cubic import may_vanish, roots
 
 __all__ = ["INSIDE", "PLANE", "SAFE_MARGIN", "TURN", "Fault", "first_fault", "safe_share"]
@@ -108,9 +108,9 @@ def _dot(a: Floats, b: Floats) -> Floats:
 def _moving_cross(a: tuple[Floats, Floats], b: tuple[Floats, Floats]) -> list[Floats]:
     """Coefficients in t of ``(a0 + a1 t) x (b0 + b1 t)``."""
     return [
-        np.cross(a[0], b[0]),
-        np.cross(a[0], b[1]) + np.cross(a[1], b[0]),
-        np.cross(a[1], b[1]),
+        cross(a[0], b[0]),
+        cross(a[0], b[1]) + cross(a[1], b[0]),
+        cross(a[1], b[1]),
     ]
 
 
@@ -152,10 +152,10 @@ def _in_face(motion: _Motion, quads: Ints, t: Floats) -> NDArray[np.bool_]:
     spot = motion.at(quads, t)
     vertex, corners = spot[:, 0], spot[:, 1:]
     edges = np.roll(corners, -1, axis=1) - corners
-    normal = np.cross(edges[:, 0], edges[:, 1])
+    normal = cross(edges[:, 0], edges[:, 1])
     within = np.ones(len(t), dtype=bool)
     for k in range(3):
-        inwards = np.cross(normal, edges[:, k])
+        inwards = cross(normal, edges[:, k])
         reach = motion.inside * np.linalg.norm(inwards, axis=1)
         within &= _dot(inwards, vertex - corners[:, k]) >= -reach
     return within
@@ -165,13 +165,13 @@ def _edges_meet(motion: _Motion, quads: Ints, t: Floats) -> NDArray[np.bool_]:
     """Whether the edges ``quads[:, :2]`` and ``quads[:, 2:]``, in one plane, meet."""
     spot = motion.at(quads, t)
     one, other = spot[:, 1] - spot[:, 0], spot[:, 3] - spot[:, 2]
-    normal = np.cross(one, other)
+    normal = cross(one, other)
     square = _dot(normal, normal)
     long_one, long_other = np.linalg.norm(one, axis=1), np.linalg.norm(other, axis=1)
     meet: NDArray[np.bool_] = square > (_PARALLEL * long_one * long_other) ** 2
     offset = spot[:, 2] - spot[:, 0]
     for edge, length in ((other, long_one), (one, long_other)):
-        along = _dot(np.cross(offset, edge), normal)
+        along = _dot(cross(offset, edge), normal)
         slack = motion.inside * square / np.maximum(length, np.finfo(float).tiny)
         meet &= (along >= -slack) & (along <= square + slack)
     return meet
@@ -237,7 +237,9 @@ def _first_contact(
     meet = _in_face if split == 1 else _edges_meet
     best: Fault | None = None
     for quads, cubic, tolerance in cubics:
-        may = may_vanish(cubic, tolerance)
+        may = np.flatnonzero(may_vanish(cubic, tolerance))
+        if not len(may):
+            continue
         which, t = roots(cubic[may], tolerance[may])
         early = t <= latest
         at, t = quads[may][which[early]], t[early]
