@@ -236,6 +236,9 @@ def test_its_joints_turn_with_the_frame():
 def test_a_picture_says_where_each_piece_goes():
     made = fork()
     text = placing(made)
+    assert len(re.findall('text-anchor="start">([^<]+)<', text)) == 4 + ("*" in text)
+    text = text.partition('text-anchor="start"')[0]  # without the legend
+    text = text[: text.rindex("<circle")]
     names = re.findall(r"<text[^>]*>([^<]*)</text>", text)
     several = len(made.joints) > 1  # a lone kind of joint has no letter
     expected = []
@@ -245,9 +248,10 @@ def test_a_picture_says_where_each_piece_goes():
             expected.append(place.part + other)
         elif place.role == "cap":
             expected.append(place.part.removeprefix("connector_") + other)
-        elif place.role == "half_a" and several:
-            expected.append(place.part[5] + other)
-    assert sorted(names) == sorted(expected)
+        elif place.role == "half_a":
+            expected.append((place.part[5] if several else "") + other)
+    numbers = [str(number) for number in range(1, len(FORK[0]) + 1)]
+    assert sorted(names) == sorted([*expected, *numbers])
     assert text.count("<circle") == len(FORK[0])
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from pathlib import Path
 
 import click
@@ -40,7 +41,9 @@ def export(
     kind = _kind(kind, output)
     kit = load(folder)
     if part not in kit.parts:
-        msg = f"part = {part!r}: must be one of {', '.join(kit.parts)}"
+        near = get_close_matches(part, kit.parts, n=1)
+        hint = f" (did you mean {near[0]}?)" if near else ""
+        msg = f"part = {part!r}: must be one of {', '.join(kit.parts)}{hint}"
         raise InputError(msg)
     solid = kit.parts[part]
     points = solid.points(settings(kit, changes))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -22,6 +24,12 @@ _EDGE, _MARGIN = 120.0, 50.0
 #: Radius of a joint, width of a tube, side of a key's mark, and size of the text, in pixels.
 _JOINT, _TUBE, _KEY, _TEXT = 14.0, 9.0, 10.0, 12.0
 
+#: Size of the letter below a joint's number, and height of a line of the legend, in pixels.
+_LETTER, _LEGEND = 9.0, 32.0
+
+#: Least width of the picture, for the legend, in pixels.
+_WIDE = 430.0
+
 
 def placing(kit: Kit) -> str:
     """Draw where each piece goes.
@@ -34,14 +42,16 @@ def placing(kit: Kit) -> str:
     Returns
     -------
     text
-        SVG: elements have their names and joints their letters, dark squares stand where a peg
-        goes in, and short stubs are loose connectors, named by joint and number.  What lies
-        the other way up has a star; a joint has one if its halves do.
+        SVG: elements have their names and joints their numbers and letters, dark squares stand
+        where a peg goes in, and short stubs are loose connectors, named by joint and number.
+        What lies the other way up has a star; a joint has one if its halves do.  A legend says so.
     """
     points = np.array([p.at for p in kit.placements]) * (_EDGE, -_EDGE)
     corner = points.min(axis=0) - _MARGIN
     width, height = points.max(axis=0) + _MARGIN - corner
+    width = max(width, _WIDE)
     names = set(kit.elements)
+    numbers = {at: number for number, at in enumerate(kit.vertices, 1)}
     letters = {piece.part: one.name for one in kit.joints for piece in one.pieces}
     layers: list[list[str]] = [[], [], [], []]
     for placement, point in zip(kit.placements, points - corner, strict=True):
@@ -56,14 +66,13 @@ def placing(kit: Kit) -> str:
                 _text(point + _ahead(placement, 2.6 * _JOINT), placement.marked(which))
             )
         elif placement.role == "half_a":
-            x, y = point
-            fill = _colour("half_b")
-            layers[1].append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{_JOINT}" fill="{fill}"/>')
-            layers[2].append(_words(point, placement.marked(letters[placement.part])))
+            letter = placement.marked(letters[placement.part])
+            layers[1].append(_joint(point, str(numbers[placement.at]), letter))
         elif placement.role == "peg":
-            x, y = point + _ahead(placement, 1.4 * _JOINT) - _KEY / 2
-            square = f'<rect x="{x:.1f}" y="{y:.1f}" width="{_KEY}" height="{_KEY}"'
-            layers[2].append(f'{square} fill="{_colour("peg")}"/>')
+            layers[2].append(_peg(point + _ahead(placement, 1.4 * _JOINT)))
+    legend = _legend(kit, height)
+    height += _LEGEND * len(legend)
+    layers.append(legend)
     drawn = "\n".join(shape for layer in layers for shape in dict.fromkeys(layer))
     size = f'width="{width:.0f}" height="{height:.0f}"'
     said = "" if kit.proved else f"<!-- {UNCHECKED} -->\n"
@@ -72,6 +81,52 @@ def placing(kit: Kit) -> str:
         f'font-family="sans-serif" font-size="{_TEXT:g}" text-anchor="middle">\n'
         f'{said}<rect {size} fill="white"/>\n{drawn}\n</svg>\n'
     )
+
+
+def _legend(kit: Kit, top: float) -> list[str]:
+    """What shapes mean, a line each: those that the picture has."""
+    letter = kit.joints[0].name
+    kind = ", and its kind" if letter else ""
+    said: list[tuple[Callable[[Floats], str], str]] = [
+        (partial(_joint, number="1", letter=letter), f"a joint: its number in the plan{kind}"),
+        (partial(_tube, role="row"), "an edge element, by its name"),
+    ]
+    if any(placement.role == "peg" for placement in kit.placements):
+        said.append((_peg, "where a peg goes in"))
+    caps = [placement.part for placement in kit.placements if placement.role == "cap"]
+    if caps:
+        words = f"a connector without a tube: {caps[0].partition('_')[2]} is {caps[0]}"
+        said.append((partial(_tube, role="cap"), words))
+    if any(placement.other_way_up for placement in kit.placements):
+        said.append((partial(_words, words="*"), "turned over: that face is down that was up"))
+    lines = []
+    for number, (shape, words) in enumerate(said):
+        at = np.array([_MARGIN / 2, top + _LEGEND * (number + 0.5)])
+        text = f'x="{at[0] + 1.6 * _JOINT:.1f}" y="{at[1] + 0.35 * _TEXT:.1f}"'
+        lines.append(f'{shape(at)}<text {text} text-anchor="start">{words}</text>')
+    return lines
+
+
+def _joint(point: Floats, number: str, letter: str) -> str:
+    """A joint with its number and, below it, its letter."""
+    x, y = point
+    return (
+        f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{_JOINT}" fill="{_colour("half_b")}"/>'
+        f'{_words(point - (0, 3), number)}<text x="{x:.1f}" y="{y + 10:.1f}" '
+        f'font-size="{_LETTER:g}">{letter}</text>'
+    )
+
+
+def _peg(middle: Floats) -> str:
+    x, y = middle - _KEY / 2
+    square = f'<rect x="{x:.1f}" y="{y:.1f}" width="{_KEY}" height="{_KEY}"'
+    return f'{square} fill="{_colour("peg")}"/>'
+
+
+def _tube(middle: Floats, role: str) -> str:
+    """A short piece of a tube."""
+    half = np.array([_JOINT, 0.0])
+    return _line(middle - half, middle + half, role)
 
 
 def _times(kit: Kit, name: str) -> float:

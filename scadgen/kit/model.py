@@ -197,6 +197,12 @@ class Kit:
         return [name for name in self.parts if name not in others]
 
     @property
+    def vertices(self) -> list[tuple[float, float]]:
+        """Where its frame's joints stand, in edge lengths: ascending by y, then x, from joint 1."""
+        places = {placement.at for placement in self.placements if placement.role == "half_a"}
+        return sorted(places, key=lambda at: (at[1], at[0]))
+
+    @property
     def proved(self) -> bool:
         """Whether something was proved of every joint."""
         return all(joint.verdicts for joint in self.joints)

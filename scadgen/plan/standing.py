@@ -182,9 +182,7 @@ def stand(kit: Kit) -> Standing:
     if not kit.placements:
         msg = f"{kit.frame}: a kit without a frame has nothing to plan; name one of a frame"
         raise InputError(msg)
-    places = sorted(
-        {p.at for p in kit.placements if p.role == "half_a"}, key=lambda at: (at[1], at[0])
-    )
+    places = kit.vertices
     tree = cKDTree(np.array(places))
     at_vertex: list[list[_End]] = [[] for _ in places]
     for number, placement in enumerate(kit.placements):

@@ -1,0 +1,5 @@
+"""``python -m scadgen``: the same as ``scadgen``."""
+
+from scadgen.cli.main import main
+
+main()
