@@ -32,7 +32,7 @@ _COUNTS = (10, 40)
 _JOINT, _GROWTH, _MEGABYTES, _LARGE, _CELLS = 0.15, 1.1, 2000.0, 10.0, 100
 
 #: Joints for the speed-up.
-_SHARED = 12
+_SHARED = 100
 
 
 def run(counts: Sequence[int] = _COUNTS) -> None:
