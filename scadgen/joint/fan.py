@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from scadgen.joint.curve import SiteCurve, slopes
 from scadgen.joint.walls import Key, Wedge
 from scadgen.solid.affine import Floats, Ints
+from scadgen.solid.vectors import cross
 
 __all__ = ["fanned"]
 
@@ -34,35 +35,44 @@ def fanned(
         numbers = [n for n, wedge in enumerate(walls) if len(wedge.corners) == count]
         corners = np.array([[position[c] for c in walls[n].corners] for n in numbers])
         labels = np.array([(walls[n].low, walls[n].high) for n in numbers])
-        scores = [
-            np.stack([*_scores(np.roll(corners, -turn, axis=1), labels, curves)], axis=1).tolist()
-            for turn in range(count)
-        ]
+        scores = np.stack(_scores(corners, labels, curves), axis=2).tolist()
         for row, number in enumerate(numbers):
             wedge = walls[number]
-            best = min(range(count), key=lambda n: (*scores[n][row], wedge.corners[n]))
+            best = min(range(count), key=lambda n: (*scores[row][n], wedge.corners[n]))
             turned = (*wedge.corners[best:], *wedge.corners[:best])
-            result[number] = replace(wedge, corners=turned)
+            result[number] = wedge._replace(corners=turned)
     return result
 
 
-def _scores(corners: Floats, labels: Ints, curves: Sequence[SiteCurve]) -> tuple[Floats, ...]:
-    """How bad it is to cut ``(p, k, 3)`` polygons from their first corners; compared in order.
+def _scores(corners: Floats, labels: Ints, curves: Sequence[SiteCurve]) -> list[Floats]:
+    """How bad it is to cut ``(p, k, 3)`` polygons from each corner, ``(p, k)``; compared in order.
 
     Whether a triangle folds back, how far the diagonals' middles are from the wall, and how
     long the diagonals are.
     """
+    count = corners.shape[1]
+    pairs = itertools.combinations(range(count), 2)
+    ends = np.array([(a, b) for a, b in pairs if 1 < b - a < count - 1])
+    start, stop = (corners[:, side] for side in ends.T)
+    middles = ((start + stop) / 2).reshape(-1, 3)
+    low, high = (np.repeat(labels[:, side], len(ends)) for side in (0, 1))
+    off = _distance_from_wall(middles, low, high, curves).reshape(len(corners), -1)
+    length = np.linalg.norm(stop - start, axis=2)
+    mine = [(ends == corner).any(axis=1) for corner in range(count)]
+    return [
+        np.stack([_folds(np.roll(corners, -turn, axis=1)) for turn in range(count)], axis=1),
+        np.stack([off[:, own].max(axis=1) for own in mine], axis=1).round(_DECIMALS),
+        np.stack([length[:, own].sum(axis=1) for own in mine], axis=1).round(_DECIMALS),
+    ]
+
+
+def _folds(corners: Floats) -> Floats:
+    """Whether a triangle of polygons that are cut from their first corners folds back."""
     arms = corners[:, 1:] - corners[:, :1]
-    normals = np.cross(arms[:, :-1], arms[:, 1:])
+    normals = cross(arms[:, :-1], arms[:, 1:])
     total = normals.sum(axis=1)
     upright = np.einsum("pkx,px->pk", normals, total) / np.einsum("px,px->p", total, total)[:, None]
-    folds = (upright.min(axis=1) < _FOLD) * 1.0
-    ends = corners[:, 2:-1]
-    middles = (corners[:, :1] + ends) / 2
-    low, high = (np.repeat(labels[:, side], ends.shape[1]) for side in (0, 1))
-    off = _distance_from_wall(middles.reshape(-1, 3), low, high, curves).reshape(ends.shape[:2])
-    length = np.linalg.norm(arms[:, 1:-1], axis=2).sum(axis=1)
-    return folds, off.max(axis=1).round(_DECIMALS), length.round(_DECIMALS)
+    return np.asarray((upright.min(axis=1) < _FOLD) * 1.0)
 
 
 def _distance_from_wall(

@@ -144,10 +144,21 @@ def _meet(
         excess = np.where(seen[moving], far - far[row, first][:, None], 0.0)
         slope = np.where(seen[moving, :, None], slope - slope[row, first][:, None], 0.0)
         within = np.einsum("mlx,mdx->mld", slope, basis[moving])
-        step = np.einsum("mdl,ml->md", np.linalg.pinv(within, rcond=1e-6), excess)
+        step = _shortest_steps(within, excess)
         points[moving] -= np.einsum("md,mdx->mx", step, basis[moving])
         moving = moving[np.abs(step).max(axis=1) > _STILL]
     return points
+
+
+def _shortest_steps(rows: Floats, excess: Floats) -> Floats:
+    """The shortest steps ``(m, d)`` that undo ``(m, l)`` by rows ``(m, l, d)``."""
+    # Nearly all vertices are on one wall, with one row that is not zero.
+    step = np.einsum("mld,ml->md", rows, excess)
+    step /= np.maximum(np.einsum("mld,mld->m", rows, rows), np.finfo(float).tiny)[:, None]
+    several = np.flatnonzero(rows.any(axis=2).sum(axis=1) > 1)
+    inverse = np.linalg.pinv(rows[several], rcond=1e-6)
+    step[several] = np.einsum("mdl,ml->md", inverse, excess[several])
+    return np.asarray(step)
 
 
 def _seen_distances(

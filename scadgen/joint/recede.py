@@ -23,6 +23,7 @@ from scadgen.joint.nearest import nearest_points
 from scadgen.joint.surface import Surface
 from scadgen.joint.walls import Facet
 from scadgen.solid.affine import Floats, Ints
+from scadgen.solid.vectors import cross, dot
 
 __all__ = ["recede"]
 
@@ -120,10 +121,13 @@ class _Limits:
         self._free = np.eye(3) - inverse @ on
         corners = points[walls]
         faces = _unit(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
-        has, which = _listed(walls.ravel(), np.repeat(np.arange(len(walls)), 3), len(points))
-        self._rows = np.where(has[..., None], -faces[which], 0.0)
-        self._within = self._rows @ self._free
-        self._need = has.astype(float)
+        # The rows of walls, those of one vertex after the other, and where each vertex's are.
+        order = np.argsort(walls.ravel(), kind="stable")
+        self._vertex = walls.ravel()[order]
+        self._rows = -faces[order // 3]
+        self._within = np.einsum("kj,kji->ki", self._rows, self._free[self._vertex])
+        self._has, self._which = _listed(self._vertex, np.arange(len(order)), len(points))
+        self._walled, self._first = np.unique(self._vertex, return_index=True)
         # What limits each vertex, and the inverse of these rows: times what they need, it is the
         # shortest displacement; turned round, times that, how much each of them pushes.
         self._limiting = np.full((len(points), 3), -1)
@@ -136,12 +140,15 @@ class _Limits:
         displacement is easily seen then; only where it does not is it sought anew.
         """
         start = self._start + np.einsum("vij,vj->vi", self._free, wish - self._start)
-        need = self._need - np.einsum("vwi,vi->vw", self._rows, start)
+        need = 1 - dot(self._rows, start[self._vertex])
         found, weights = self._limited(need, slice(None))
-        left = need - np.einsum("vwi,vi->vw", self._within, found)
-        good = (weights >= -_EXACT).all(axis=1) & (left.max(axis=1, initial=0.0) < _EXACT)
+        good = np.asarray((weights >= -_EXACT).all(axis=1))
+        left = need - dot(self._within, found[self._vertex])
+        good[self._walled] &= np.maximum.reduceat(left, self._first) < _EXACT
         if (wrong := np.flatnonzero(~good)).size:
-            limiting, exists = nearest_points(self._within[wrong], need[wrong])
+            has, which = self._has[wrong], self._which[wrong]
+            rows = np.where(has[..., None], self._within[which], 0.0)
+            places, exists = nearest_points(rows, np.where(has, need[which], 0.0))
             if not exists.all():
                 x, y, z = self._points[wrong[~exists][0]]
                 msg = (
@@ -149,20 +156,45 @@ class _Limits:
                     "sides: no clearance is possible there; another amplitude or bend helps"
                 )
                 raise GeometryError(msg)
-            self._limiting[wrong] = limiting
-            rows = self._within[wrong[:, None], limiting]
-            self._inverse[wrong] = np.linalg.pinv(np.where(limiting[..., None] < 0, 0.0, rows))
-            found[wrong], _ = self._limited(need[wrong], wrong)
+            there = places >= 0
+            limiting = np.take_along_axis(which, places, axis=1)
+            self._limiting[wrong] = np.where(there, limiting, -1)
+            self._inverse[wrong] = _inverse(np.where(there[..., None], self._within[limiting], 0.0))
+            found[wrong], _ = self._limited(need, wrong)
         return np.asarray(start + found)
 
     def _limited(self, need: Floats, some: Ints | slice) -> tuple[Floats, Floats]:
         """By how much some vertices move if they are limited as they were, and what pushes them."""
         limiting = self._limiting[some]
-        wanted = np.take_along_axis(need, limiting, axis=1)
-        wanted[limiting < 0] = 0.0
+        wanted = np.where(limiting < 0, 0.0, need[limiting])
         inverse = self._inverse[some]
         found = np.einsum("vij,vj->vi", inverse, wanted)
         return found, np.einsum("vij,vi->vj", inverse, found)
+
+
+def _inverse(rows: Floats) -> Floats:
+    """Pseudo-inverses of three rows each, ``(k, 3, 3)``, that are independent but for zeros.
+
+    A column is what is left of a row across the other two, over its square.
+    """
+    columns = []
+    for n in range(3):
+        row, *others = (rows[:, (n + step) % 3] for step in range(3))
+        both = np.asarray(others[0].any(axis=1) & others[1].any(axis=1))
+        # Along what is across two others, or else without what is along the only one.
+        across, only = cross(*others), others[0] + others[1]
+        left = np.where(both[:, None], _along(row, across), row - _along(row, only))
+        columns.append(left / _square(left)[:, None])
+    return np.stack(columns, axis=2)
+
+
+def _along(rows: Floats, axes: Floats) -> Floats:
+    """The parts of rows along axes; none along zero."""
+    return np.asarray((dot(rows, axes) / _square(axes))[:, None] * axes)
+
+
+def _square(rows: Floats) -> Floats:
+    return np.asarray(np.maximum(dot(rows, rows), np.finfo(float).tiny))
 
 
 def _unit(normals: Floats) -> Floats:

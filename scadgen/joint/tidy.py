@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +17,7 @@ from numpy.typing import NDArray
 from scadgen.joint.curve import SiteCurve, nearest_curve
 from scadgen.joint.lattice import Lattice
 from scadgen.joint.walls import Facet, Key, Wedge
-from scadgen.solid.affine import Floats
+from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["corners_in_the_way", "merge_short_sides"]
 
@@ -52,27 +51,28 @@ def corners_in_the_way(lattice: Lattice, curves: Sequence[SiteCurve]) -> NDArray
     height = np.linspace(-0.5, 0.5, _LEVELS)
     dropped = []
     for radius in (lattice.ring_ratio - 0.5, lattice.ring_ratio + 0.5):
-        shift = np.array([-_SLIDE, -_ROOM, _ROOM, _SLIDE]) / radius
-        angle = lattice.planes[:, None] + shift
-        points = np.empty((*angle.shape, _LEVELS, 3))
-        points[..., 0] = radius * np.cos(angle)[..., None]
-        points[..., 1] = radius * np.sin(angle)[..., None]
-        points[..., 2] = height
-        label = nearest_curve(curves, points)
-        passed = (label[:, 1] != label[:, 2]).mean(axis=1) > _ALONG
-        for rim, near in (
-            (height == height[0], height < _ROOM - 0.5),
-            (height == height[-1], height > 0.5 - _ROOM),
-        ):
-            ends = np.hstack(
-                [
-                    label[:, :, rim].reshape(len(label), -1),
-                    label[:, 1:3, near].reshape(len(label), -1),
-                ]
-            )
+        beside, slid = (
+            _labels_beside(lattice, curves, radius, room, levels)
+            for room, levels in ((_ROOM, height), (_SLIDE, height[[0, -1]]))
+        )
+        passed = (beside[:, 0] != beside[:, 1]).mean(axis=1) > _ALONG
+        for rim, near in ((0, height < _ROOM - 0.5), (-1, height > 0.5 - _ROOM)):
+            ends = np.hstack([slid[:, :, rim], beside[:, :, near].reshape(len(beside), -1)])
             passed |= (ends != ends[:, :1]).any(axis=1)
         dropped.append(passed)
     return np.stack(dropped)
+
+
+def _labels_beside(
+    lattice: Lattice, curves: Sequence[SiteCurve], radius: float, room: float, height: Floats
+) -> Ints:
+    """Nearest curves to either side of each plane, at some heights, ``(planes, 2, heights)``."""
+    angle = lattice.planes[:, None] + np.array([-room, room]) / radius
+    points = np.empty((*angle.shape, len(height), 3))
+    points[..., 0] = radius * np.cos(angle)[..., None]
+    points[..., 1] = radius * np.sin(angle)[..., None]
+    points[..., 2] = height
+    return nearest_curve(curves, points)
 
 
 def merge_short_sides(
@@ -204,7 +204,7 @@ def _pass_on_borders(walls: list[Wedge], around: dict[Key, set[int]], kept: Key)
                     forward = corners[corners.index(start) - len(corners) + 1] == stop
                     border = (facet, start, stop) if forward else (facet, stop, start)
                     found = (*walls[beyond].borders, border)
-                    walls[beyond] = replace(walls[beyond], borders=found)
+                    walls[beyond] = walls[beyond]._replace(borders=found)
         for corner in walls[number].corners:
             around[corner].discard(number)
 
@@ -222,4 +222,4 @@ def _renamed(wedge: Wedge, gone: Key, kept: Key) -> Wedge:
     ends = [
         (facet, kept if a == gone else a, kept if b == gone else b) for facet, a, b in wedge.borders
     ]
-    return replace(wedge, corners=once, borders=tuple(e for e in ends if e[1] != e[2]))
+    return wedge._replace(corners=once, borders=tuple(e for e in ends if e[1] != e[2]))

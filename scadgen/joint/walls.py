@@ -17,7 +17,7 @@ boundary and for any number of labels).
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -36,8 +36,7 @@ Facet = tuple[str, int]
 Border = tuple[Facet, Key, Key]
 
 
-@dataclass(frozen=True, slots=True)
-class Wedge:
+class Wedge(NamedTuple):
     """One polygon of a wall.
 
     Parameters

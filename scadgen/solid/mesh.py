@@ -182,8 +182,12 @@ def weld_float32(points: Floats, triangles: Ints) -> tuple[NDArray[np.float32], 
     """
     # Adding zero turns -0.0 into 0.0, which is the same place.
     rounded = points.astype(np.float32) + np.float32(0)
-    merged, where = np.unique(rounded, axis=0, return_inverse=True)
-    return merged, where.reshape(-1)[triangles]
+    order = np.lexsort(rounded.T[::-1])
+    ordered = rounded[order]
+    new = np.append(True, (ordered[1:] != ordered[:-1]).any(axis=1))[: len(order)]
+    where = np.empty(len(order), dtype=np.int64)
+    where[order] = np.cumsum(new) - 1
+    return ordered[new], where[triangles]
 
 
 def _named(what: str, offenders: Ints) -> str:

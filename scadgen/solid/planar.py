@@ -55,10 +55,8 @@ def triangulate(points: Floats, facets: Sequence[Loops]) -> list[Ints]:
     if not valid.all():
         msg = f"facet outlines do not cross: {shapely.is_valid_reason(shells[~valid][0])}"
         raise InvariantError(msg)
-    vertex = {
-        (f, x, y): v
-        for f, (x, y), v in zip(owner[ring].tolist(), flat.tolist(), vertices.tolist(), strict=True)
-    }
+    names = zip(owner[ring].tolist(), *flat.T.tolist(), strict=True)
+    vertex = dict(zip(names, vertices.tolist(), strict=True))
     if len(vertex) != len({*zip(owner[ring].tolist(), vertices.tolist(), strict=True)}):
         msg = "facet outlines do not cross: two vertices of one are in one place"
         raise InvariantError(msg)
@@ -70,13 +68,8 @@ def triangulate(points: Floats, facets: Sequence[Loops]) -> list[Ints]:
     ahead = (b - a)[:, 0] * (c - a)[:, 1] > (b - a)[:, 1] * (c - a)[:, 0]
     corners = np.where(ahead[:, None, None], corners, corners[:, ::-1])
     facet = of[shell]
-    found = np.array(
-        [
-            [vertex[f, x, y] for x, y in three]
-            for f, three in zip(facet.tolist(), corners.tolist(), strict=True)
-        ],
-        dtype=int,
-    ).reshape(-1, 3)
+    spots = zip(np.repeat(facet, 3).tolist(), *corners.reshape(-1, 2).T.tolist(), strict=True)
+    found = np.array([vertex[spot] for spot in spots], dtype=int).reshape(-1, 3)
     return [found[facet == n] for n in range(len(facets))]
 
 

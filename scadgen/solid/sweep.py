@@ -27,8 +27,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scadgen.solid.affine import Floats, Ints
-from scadgen.solid.crossing import box_pairs, cross, own_box_pairs
+from scadgen.solid.crossing import box_pairs, own_box_pairs
 from scadgen.solid.cubic import may_vanish, roots
+from scadgen.solid.vectors import cross, dot
 
 __all__ = ["INSIDE", "PLANE", "SAFE_MARGIN", "TURN", "Fault", "first_fault", "safe_share"]
 
@@ -100,11 +101,6 @@ class _Motion:
         return ends.min(axis=1) - self.inside, ends.max(axis=1) + self.inside
 
 
-def _dot(a: Floats, b: Floats) -> Floats:
-    product: Floats = np.einsum("ij,ij->i", a, b)
-    return product
-
-
 def _moving_cross(a: tuple[Floats, Floats], b: tuple[Floats, Floats]) -> list[Floats]:
     """Coefficients in t of ``(a0 + a1 t) x (b0 + b1 t)``."""
     return [
@@ -116,8 +112,8 @@ def _moving_cross(a: tuple[Floats, Floats], b: tuple[Floats, Floats]) -> list[Fl
 
 def _moving_dot(d: tuple[Floats, Floats], n: list[Floats]) -> Floats:
     """Coefficients ``(k, 4)`` in t of ``(d0 + d1 t) . (n0 + n1 t + n2 t^2)``."""
-    low = [_dot(d[0], x) for x in n]
-    high = [_dot(d[1], x) for x in n]
+    low = [dot(d[0], x) for x in n]
+    high = [dot(d[1], x) for x in n]
     return np.column_stack([low[0], low[1] + high[0], low[2] + high[1], high[2]])
 
 
@@ -133,8 +129,8 @@ def _moving_normals(motion: _Motion, triangles: Ints) -> list[Floats]:
 def _first_turn(motion: _Motion, triangles: Ints) -> Fault | None:
     """Find the first face whose normal falls below `TURN` of what it was."""
     n0, n1, n2 = _moving_normals(motion, triangles)
-    square = _dot(n0, n0)
-    c0, c1, c2 = (1 - TURN) * square, _dot(n0, n1), _dot(n0, n2)
+    square = dot(n0, n0)
+    c0, c1, c2 = (1 - TURN) * square, dot(n0, n1), dot(n0, n2)
     # The smallest positive root, in the form that keeps its digits where c2 is small.
     disc = c1 * c1 - 4 * c0 * c2
     below = np.sqrt(np.maximum(disc, 0)) - c1
@@ -157,7 +153,7 @@ def _in_face(motion: _Motion, quads: Ints, t: Floats) -> NDArray[np.bool_]:
     for k in range(3):
         inwards = cross(normal, edges[:, k])
         reach = motion.inside * np.linalg.norm(inwards, axis=1)
-        within &= _dot(inwards, vertex - corners[:, k]) >= -reach
+        within &= dot(inwards, vertex - corners[:, k]) >= -reach
     return within
 
 
@@ -166,12 +162,12 @@ def _edges_meet(motion: _Motion, quads: Ints, t: Floats) -> NDArray[np.bool_]:
     spot = motion.at(quads, t)
     one, other = spot[:, 1] - spot[:, 0], spot[:, 3] - spot[:, 2]
     normal = cross(one, other)
-    square = _dot(normal, normal)
+    square = dot(normal, normal)
     long_one, long_other = np.linalg.norm(one, axis=1), np.linalg.norm(other, axis=1)
     meet: NDArray[np.bool_] = square > (_PARALLEL * long_one * long_other) ** 2
     offset = spot[:, 2] - spot[:, 0]
     for edge, length in ((other, long_one), (one, long_other)):
-        along = _dot(cross(offset, edge), normal)
+        along = dot(cross(offset, edge), normal)
         slack = motion.inside * square / np.maximum(length, np.finfo(float).tiny)
         meet &= (along >= -slack) & (along <= square + slack)
     return meet
@@ -206,7 +202,8 @@ def _vertex_face(motion: _Motion, triangles: Ints, facets: Ints) -> Iterator[_Cu
     for pairs in box_pairs(*boxes[0], *boxes[1]):
         vertex, face = vertices[pairs[:, 0]], pairs[:, 1]
         foreign = (triangles[face] != vertex[:, None]).all(axis=1)
-        foreign &= ~np.isin(vertex * flat_areas + facets[face], at_facet)
+        place = np.searchsorted(at_facet, own := vertex * flat_areas + facets[face])
+        foreign &= at_facet[np.minimum(place, len(at_facet) - 1)] != own
         vertex, face = vertex[foreign], face[foreign]
         way = _between(motion, triangles[face, 0], vertex)
         cubic = _moving_dot(way, [n[face] for n in normals])
