@@ -53,7 +53,7 @@ class _Vectors(NamedTuple):
 
     def rows(self, some: Ints) -> _Vectors:
         """Some of them."""
-        return _Vectors(self.plan[some], self.height[some])
+        return _Vectors(self.plan.take(some), self.height.take(some))
 
 
 class _Arms(NamedTuple):
@@ -196,7 +196,7 @@ def distances(
     found, near = _sampled(curves, flat)
     limit = found.min(axis=0) + np.broadcast_to(beyond, points.shape[:-1]).ravel()
     which, row = np.nonzero(_least(curves, found) <= limit)
-    away = _together(tuple(curves)).away(which, flat[row], near[which, row])
+    away = _together(tuple(curves)).away(which, flat.take(row, axis=0), near[which, row])
     found[which, row] = np.sqrt(away.dot(away))
     return found.reshape(len(curves), *points.shape[:-1])
 
@@ -214,7 +214,7 @@ def nearest_curve(curves: Sequence[SiteCurve], points: Floats) -> Ints:
     nearest = np.asarray(found.argmin(axis=0))
     # Mostly the samples of one curve alone are near enough.
     contested = np.flatnonzero((_least(curves, found) <= found.min(axis=0)).sum(axis=0) > 1)
-    nearest[contested] = distances(curves, flat[contested], beyond=0.0).argmin(axis=0)
+    nearest[contested] = distances(curves, flat.take(contested, axis=0), beyond=0.0).argmin(axis=0)
     return nearest.reshape(points.shape[:-1])
 
 
@@ -251,7 +251,7 @@ def slopes(curves: Sequence[SiteCurve], points: Floats, which: Ints) -> tuple[Fl
     near = np.empty(len(points))
     for number, curve in enumerate(curves):
         mine = np.flatnonzero(which == number)
-        near[mine] = curve.from_sample(points[mine])[1]
+        near[mine] = curve.from_sample(points.take(mine, axis=0))[1]
     away = _together(tuple(curves)).away(which, points, near)
     distance = np.sqrt(away.dot(away))
     return distance, away.stacked() / np.maximum(distance, np.finfo(float).tiny)[:, None]

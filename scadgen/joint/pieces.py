@@ -204,10 +204,8 @@ def _parted(
     points = np.array([position[key] for key, _ in names])
     c, s = np.cos(angle), np.sin(angle)
     points = points @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    walls = [
-        tuple(number[v] for v in triangle) for corners in polygons for triangle in _fan(corners)
-    ]
-    triangles = np.array(walls, dtype=int).reshape(-1, 3)
+    walls = ([number[v] for v in corners] for corners in polygons)
+    triangles = np.array([t for corners in walls for t in _fan(corners)], dtype=int).reshape(-1, 3)
     outlines = {
         facet: np.array([(number[a], number[b]) for a, b in pairs], dtype=int)
         for facet, pairs in sorted(sides.items())
@@ -244,6 +242,6 @@ def _component(points: Floats, walls: Ints, outlines: dict[Facet, Ints], mine: I
     return Surface(points, walls[mine[walls[:, 0]]], kept)
 
 
-def _fan(corners: Sequence[_Sided]) -> list[tuple[_Sided, _Sided, _Sided]]:
+def _fan(corners: Sequence[int]) -> list[tuple[int, int, int]]:
     """Triangles of a polygon, all from its first corner."""
     return [(corners[0], a, b) for a, b in itertools.pairwise(corners[1:])]

@@ -167,5 +167,5 @@ def _seen_distances(
     """Distances from the curves seen, and their gradients; zero from others."""
     far, slope = np.zeros(seen.shape), np.zeros((*seen.shape, 3))
     row, which = np.nonzero(seen)
-    far[row, which], slope[row, which] = slopes(curves, points[row], which)
+    far[row, which], slope[row, which] = slopes(curves, points.take(row, axis=0), which)
     return far, slope

@@ -140,15 +140,15 @@ class _Limits:
         displacement is easily seen then; only where it does not is it sought anew.
         """
         start = self._start + np.einsum("vij,vj->vi", self._free, wish - self._start)
-        need = 1 - dot(self._rows, start[self._vertex])
+        need = 1 - dot(self._rows, start.take(self._vertex, axis=0))
         found, weights = self._limited(need, slice(None))
         good = np.asarray((weights >= -_EXACT).all(axis=1))
-        left = need - dot(self._within, found[self._vertex])
+        left = need - dot(self._within, found.take(self._vertex, axis=0))
         good[self._walled] &= np.maximum.reduceat(left, self._first) < _EXACT
         if (wrong := np.flatnonzero(~good)).size:
             has, which = self._has[wrong], self._which[wrong]
-            rows = np.where(has[..., None], self._within[which], 0.0)
-            places, exists = nearest_points(rows, np.where(has, need[which], 0.0))
+            rows = np.where(has[..., None], self._within.take(which, axis=0), 0.0)
+            places, exists = nearest_points(rows, np.where(has, need.take(which), 0.0))
             if not exists.all():
                 x, y, z = self._points[wrong[~exists][0]]
                 msg = (
@@ -159,14 +159,16 @@ class _Limits:
             there = places >= 0
             limiting = np.take_along_axis(which, places, axis=1)
             self._limiting[wrong] = np.where(there, limiting, -1)
-            self._inverse[wrong] = _inverse(np.where(there[..., None], self._within[limiting], 0.0))
+            self._inverse[wrong] = _inverse(
+                np.where(there[..., None], self._within.take(limiting, axis=0), 0.0)
+            )
             found[wrong], _ = self._limited(need, wrong)
         return np.asarray(start + found)
 
     def _limited(self, need: Floats, some: Ints | slice) -> tuple[Floats, Floats]:
         """By how much some vertices move if they are limited as they were, and what pushes them."""
         limiting = self._limiting[some]
-        wanted = np.where(limiting < 0, 0.0, need[limiting])
+        wanted = np.where(limiting < 0, 0.0, need.take(limiting))
         inverse = self._inverse[some]
         found = np.einsum("vij,vj->vi", inverse, wanted)
         return found, np.einsum("vij,vi->vj", inverse, found)
@@ -177,24 +179,26 @@ def _inverse(rows: Floats) -> Floats:
 
     A column is what is left of a row across the other two, over its square.
     """
-    columns = []
-    for n in range(3):
-        row, *others = (rows[:, (n + step) % 3] for step in range(3))
-        both = np.asarray(others[0].any(axis=1) & others[1].any(axis=1))
-        # Along what is across two others, or else without what is along the only one.
-        across, only = cross(*others), others[0] + others[1]
-        left = np.where(both[:, None], _along(row, across), row - _along(row, only))
-        columns.append(left / _square(left)[:, None])
-    return np.stack(columns, axis=2)
+    ahead, behind = rows[:, [1, 2, 0]], rows[:, [2, 0, 1]]
+    both = np.asarray(ahead.any(axis=2) & behind.any(axis=2))
+    # Along what is across two others, or else without what is along the only one.
+    left = np.where(
+        both[..., None],
+        _along(rows, cross(ahead, behind)),
+        rows - _along(rows, ahead + behind),
+    )
+    return np.asarray((left / _square(left)[..., None]).swapaxes(1, 2))
 
 
 def _along(rows: Floats, axes: Floats) -> Floats:
     """The parts of rows along axes; none along zero."""
-    return np.asarray((dot(rows, axes) / _square(axes))[:, None] * axes)
+    share = np.einsum("...d,...d->...", rows, axes) / _square(axes)
+    return np.asarray(share[..., None] * axes)
 
 
 def _square(rows: Floats) -> Floats:
-    return np.asarray(np.maximum(dot(rows, rows), np.finfo(float).tiny))
+    square = np.einsum("...d,...d->...", rows, rows)
+    return np.asarray(np.maximum(square, np.finfo(float).tiny))
 
 
 def _unit(normals: Floats) -> Floats:

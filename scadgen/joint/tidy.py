@@ -140,14 +140,11 @@ def _short_sides(
     )
     ends = np.array([(position[a], position[b]) for a, b in sides]).reshape(-1, 2, 3)
     lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1).round(9)
-    length = dict(zip(sides, lengths.tolist(), strict=True))
-    at_vertex = Counter((key, length[side]) for side in sides for key in side)
-    short = [
-        side
-        for side in sides
-        if length[side] < _SHORT * cell and all(at_vertex[key, length[side]] == 1 for key in side)
-    ]
-    return sorted(short, key=lambda side: (length[side], side))
+    short = np.flatnonzero(lengths < _SHORT * cell)
+    length = {sides[n]: float(lengths[n]) for n in short.tolist()}
+    at_vertex = Counter((key, length[side]) for side in length for key in side)
+    alone = [side for side in length if all(at_vertex[key, length[side]] == 1 for key in side)]
+    return sorted(alone, key=lambda side: (length[side], side))
 
 
 def _may_merge(walls: Sequence[Wedge], around: dict[Key, set[int]], gone: Key, kept: Key) -> bool:
@@ -179,7 +176,8 @@ def _may_merge(walls: Sequence[Wedge], around: dict[Key, set[int]], gone: Key, k
     if len(passed_on) > (gone[0] == "cell") or len(beyond) != len(passed_on):
         return False
     new = facets[1] - facets[0]
-    for number in around[gone] - {n for n in shared if len(walls[n].corners) == 3}:
+    staying = around[gone] - {n for n in shared if len(walls[n].corners) == 3}
+    for number in staying if new else ():
         corners = {*walls[number].corners} - {gone, kept}
         touching = sum(bool(_facets(walls, around, corner) & new) for corner in corners)
         if touching > (number in shared or number in beyond):

@@ -64,10 +64,10 @@ def _overlapping(
     for ends in zip(low_a, high_a, low_b, high_b, strict=True):
         above, below = np.True_, np.True_
         for own_low, own_high, other_low, other_high in zip(*ends, strict=True):
-            above = above & (own_low[left] > other_high[right])
-            below = below & (other_low[right] > own_high[left])
+            above = above & (own_low.take(left) > other_high.take(right))
+            below = below & (other_low.take(right) > own_high.take(left))
         keep = np.flatnonzero(~(above | below))
-        left, right = left[keep], right[keep]
+        left, right = left.take(keep), right.take(keep)
     return np.column_stack([left, right])
 
 
@@ -179,8 +179,9 @@ def _meet(p: Floats, q: Floats, touch: float) -> _Mask:
     meet = np.ones(len(p), dtype=bool)
     for axes_of in (_across_edges, _other_axes):
         left = np.flatnonzero(meet)
-        axes = axes_of(p[left], q[left])
-        (low_p, high_p), (low_q, high_q) = _extent(axes, p[left]), _extent(axes, q[left])
+        own, facing = p.take(left, axis=0), q.take(left, axis=0)
+        axes = axes_of(own, facing)
+        (low_p, high_p), (low_q, high_q) = _extent(axes, own), _extent(axes, facing)
         gap = np.maximum(low_p - high_q, low_q - high_p)
         meet[left] = (gap <= touch * np.linalg.norm(axes, axis=2)).all(axis=1)
     return meet
@@ -231,24 +232,25 @@ def _beside(planes: Floats, corners: Sequence[Floats], own: Sequence[_Mask], tou
     return above | below
 
 
-def _close(points: Floats, triangles: Ints, pairs: Ints, touch: float) -> Ints:
+def _close(corners: Floats, triangles: Ints, pairs: Ints, touch: float) -> Ints:
     """Those pairs neither of which is clear, but for what they share, of the other's plane.
 
     Of two triangles one of which is so, that one meets the other's plane in what they share only.
     """
-    middle = points[triangles].mean(axis=(0, 1))
-    corners = (points - middle)[triangles]
+    corners = corners - corners.mean(axis=(0, 1))
     normal = _normal(corners)
     normal /= np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]
     planes = np.column_stack([normal, dot(normal, corners[:, 0])])
     one, other = pairs.T
-    names = [np.ascontiguousarray(triangles[side].T) for side in (one, other)]
+    names = [np.ascontiguousarray(triangles.take(side, axis=0).T) for side in (one, other)]
     same = [[a == b for b in names[1]] for a in names[0]]
     own_of_one = [~(row[0] | row[1] | row[2]) for row in same]
     own_of_other = [~(a | b | c) for a, b, c in zip(*same, strict=True)]
     by_corner = [np.ascontiguousarray(corners[:, n]) for n in range(3)]
-    clear = _beside(planes[other], [c[one] for c in by_corner], own_of_one, touch)
-    clear |= _beside(planes[one], [c[other] for c in by_corner], own_of_other, touch)
+    clear = np.zeros(len(pairs), dtype=bool)
+    for own, facing, is_own in ((one, other, own_of_one), (other, one, own_of_other)):
+        shown = [corner.take(own, axis=0) for corner in by_corner]
+        clear |= _beside(planes.take(facing, axis=0), shown, is_own, touch)
     # A face that is there twice has no corner of its own.
     twice = ~(own_of_one[0] | own_of_one[1] | own_of_one[2])
     return np.asarray(pairs[twice | ~clear])
@@ -278,18 +280,18 @@ def crossing_faces(points: Floats, triangles: Ints, *, touch: float | None = Non
     """
     if not len(triangles):
         return np.empty((0, 2), dtype=np.int64)
+    corners = points.take(triangles, axis=0)
     if touch is None:
-        touch = TOUCH * float(np.linalg.norm(np.ptp(points[np.unique(triangles)], axis=0)))
-    corners = points[triangles]
+        touch = TOUCH * float(np.linalg.norm(np.ptp(corners, axis=(0, 1))))
     low, high = corners.min(axis=1)[:, None], corners.max(axis=1)[:, None]
     found = []
     for boxed in own_box_pairs(low - touch, high + touch):
-        pairs = _close(points, triangles, boxed, touch)
-        one, other, shared = _shared_first(triangles[pairs[:, 0]], triangles[pairs[:, 1]])
+        pairs = _close(corners, triangles, boxed, touch)
+        one, other, shared = _shared_first(*(triangles.take(side, axis=0) for side in pairs.T))
         bad = shared == 3
         for count in range(3):
             at = np.flatnonzero(shared == count)
-            p, q = points[one[at]], points[other[at]]
+            p, q = (points.take(side.take(at, axis=0), axis=0) for side in (one, other))
             if count == 0:
                 bad[at] = _meet(p, q, touch)
             elif count == 1:

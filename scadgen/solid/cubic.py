@@ -12,8 +12,9 @@ from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["may_vanish", "roots"]
 
-#: Halvings after which an interval within [0, 1] is down to the rounding.
-_HALVINGS = 54
+#: Halvings after which an interval within [0, 1] is as short as roots that nearly coincide are
+#: exact, and steps of Newton's from there to the rounding.
+_HALVINGS, _STEPS = 27, 2
 
 
 def _value(cubic: Floats, t: Floats) -> Floats:
@@ -62,5 +63,11 @@ def roots(cubic: Floats, tolerance: Floats) -> tuple[Ints, Floats]:
         middle = (low + high) / 2
         before = (_value(own, middle) < 0) == rising
         low, high = np.where(before, middle, low), np.where(before, high, middle)
+    t = (low + high) / 2
+    for _ in range(_STEPS):
+        _, c1, c2, c3 = own.T
+        slope = c1 + t * (2 * c2 + 3 * t * c3)
+        step = np.divide(_value(own, t), slope, out=np.zeros_like(t), where=slope != 0)
+        t = np.clip(t - step, low, high)
     number = np.concatenate([which, grazing])
-    return number, np.concatenate([(low + high) / 2, split[grazing, column]])
+    return number, np.concatenate([t, split[grazing, column]])

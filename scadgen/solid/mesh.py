@@ -11,11 +11,12 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
+from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.crossing import crossing_faces
+from scadgen.solid.vectors import cross
 
 __all__ = [
     "FLAT",
@@ -41,8 +42,8 @@ _NAMED = 3
 
 
 def _crosses(points: Floats, triangles: Ints) -> Floats:
-    a, b, c = (points[triangles[:, k]] for k in range(3))
-    doubled: Floats = np.cross(b - a, c - a)
+    a, b, c = (points.take(triangles[:, k], axis=0) for k in range(3))
+    doubled: Floats = cross(b - a, c - a)
     return doubled
 
 
@@ -52,8 +53,8 @@ def volume(points: Floats, triangles: Ints) -> float:
         return 0.0
     # Measured from the mesh's own middle: far from the origin the terms would cancel.
     local = points - points[triangles[:, 0]].mean(axis=0)
-    a, b, c = (local[triangles[:, k]] for k in range(3))
-    return float((a * np.cross(b, c)).sum() / 6)
+    a, b, c = (local.take(triangles[:, k], axis=0) for k in range(3))
+    return float((a * cross(b, c)).sum() / 6)
 
 
 def areas(points: Floats, triangles: Ints) -> Floats:
@@ -72,7 +73,7 @@ def normals(points: Floats, triangles: Ints) -> Floats:
 
 def heights(points: Floats, triangles: Ints) -> Floats:
     """Smallest height of every face, ``(m,) float``, mm; zero if all corners are in line."""
-    corners = points[triangles]
+    corners = points.take(triangles, axis=0)
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
     doubled = 2 * areas(points, triangles)
     height: Floats = np.divide(doubled, longest, out=np.zeros_like(doubled), where=longest > 0)
@@ -112,7 +113,9 @@ def edge_faults(triangles: Ints) -> Ints:
 
 
 def _labels(count: int, one: Ints, other: Ints) -> tuple[int, Ints]:
-    graph = coo_array((np.ones(len(one), dtype=np.int8), (one, other)), shape=(count, count))
+    starts = np.searchsorted(np.sort(one), np.arange(count + 1))
+    ends = other[np.argsort(one, kind="stable")]
+    graph = csr_array((np.ones(len(one), dtype=np.int8), ends, starts), shape=(count, count))
     found, labels = connected_components(graph, directed=False)
     return int(found), labels.astype(np.int64)
 
@@ -198,7 +201,7 @@ def _named(what: str, offenders: Ints) -> str:
 
 
 def _degenerate(points: Floats, triangles: Ints) -> Ints:
-    size = float(np.linalg.norm(np.ptp(points[np.unique(triangles)], axis=0)))
+    size = float(np.linalg.norm(np.ptp(points.take(triangles, axis=0), axis=(0, 1))))
     return np.flatnonzero(heights(points, triangles) <= FLAT * size)
 
 

@@ -89,7 +89,7 @@ class _Motion:
 
     def at(self, vertices: Ints, t: Floats) -> Floats:
         """Where the vertices ``(k, j)`` are at the times ``(k,)``, as ``(k, j, 3)``."""
-        return self.start[vertices] + t[:, None, None] * self.way[vertices]
+        return self.start.take(vertices, 0) + t[:, None, None] * self.way.take(vertices, 0)
 
     def boxes(self, features: Ints) -> tuple[Floats, Floats]:
         """Boxes ``(k, 2, 3)`` of features ``(k, j)`` at t = 0 and 1, padded.
@@ -97,7 +97,7 @@ class _Motion:
         The lowest corner moves on a concave curve and the highest on a convex one, so
         boxes that one direction separates in the same sense at both ends stay apart.
         """
-        ends = np.stack([self.start, self.start + self.way], axis=1)[features]
+        ends = np.stack([self.start, self.start + self.way], axis=1).take(features, axis=0)
         return ends.min(axis=1) - self.inside, ends.max(axis=1) + self.inside
 
 
@@ -118,7 +118,11 @@ def _moving_dot(d: tuple[Floats, Floats], n: list[Floats]) -> Floats:
 
 
 def _between(motion: _Motion, tail: Ints, head: Ints) -> tuple[Floats, Floats]:
-    return motion.start[head] - motion.start[tail], motion.way[head] - motion.way[tail]
+    start, way = motion.start, motion.way
+    return (
+        start.take(head, axis=0) - start.take(tail, axis=0),
+        way.take(head, axis=0) - way.take(tail, axis=0),
+    )
 
 
 def _moving_normals(motion: _Motion, triangles: Ints) -> list[Floats]:
@@ -201,12 +205,12 @@ def _vertex_face(motion: _Motion, triangles: Ints, facets: Ints) -> Iterator[_Cu
     boxes = motion.boxes(vertices[:, None]), motion.boxes(triangles)
     for pairs in box_pairs(*boxes[0], *boxes[1]):
         vertex, face = vertices[pairs[:, 0]], pairs[:, 1]
-        foreign = (triangles[face] != vertex[:, None]).all(axis=1)
+        foreign = (triangles.take(face, axis=0) != vertex[:, None]).all(axis=1)
         place = np.searchsorted(at_facet, own := vertex * flat_areas + facets[face])
         foreign &= at_facet[np.minimum(place, len(at_facet) - 1)] != own
         vertex, face = vertex[foreign], face[foreign]
         way = _between(motion, triangles[face, 0], vertex)
-        cubic = _moving_dot(way, [n[face] for n in normals])
+        cubic = _moving_dot(way, [n.take(face, axis=0) for n in normals])
         yield np.column_stack([vertex, triangles[face]]), cubic, scale[face]
 
 
@@ -221,7 +225,8 @@ def _edge_edge(motion: _Motion, triangles: Ints, facets: Ints) -> Iterator[_Cubi
             foreign &= edges[one, i] != edges[other, j]
             foreign &= sides[one, i] != sides[other, j]
         one, other = pairs[foreign].T
-        normal = _moving_cross((start[one], way[one]), (start[other], way[other]))
+        first, second = ((start.take(n, 0), way.take(n, 0)) for n in (one, other))
+        normal = _moving_cross(first, second)
         cubic = _moving_dot(_between(motion, edges[one, 0], edges[other, 0]), normal)
         tolerance = motion.plane * length[one] * length[other]
         yield np.column_stack([edges[one], edges[other]]), cubic, tolerance
@@ -282,8 +287,8 @@ def first_fault(
     facets = (
         np.arange(len(triangles)) if facets is None else np.unique(facets, return_inverse=True)[1]
     )
-    used = np.unique(triangles)
-    size = max(float(np.linalg.norm(np.ptp(x[used], axis=0))) for x in (start, start + way))
+    used = (x.take(triangles, axis=0) for x in (start, start + way))
+    size = max(float(np.linalg.norm(np.ptp(corners, axis=(0, 1)))) for corners in used)
     motion = _Motion(start, way, PLANE * size, INSIDE * size)
     faults = [_first_turn(motion, triangles)]
     latest = faults[0].t if faults[0] else 1.0
