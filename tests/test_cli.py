@@ -119,6 +119,12 @@ def test_version(run):
     assert run("--version") == (0, f"scadgen, version {scadgen.__version__}\n", "")
 
 
+def test_it_runs_as_a_module():
+    command = [sys.executable, "-m", "scadgen", "--version"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout == f"scadgen, version {scadgen.__version__}\n"
+
+
 def test_kit_says_what_to_print_and_what_comes_next(run, tmp_path):
     target = tmp_path / "my kit"
     code, out, err = run("kit", "hexagonal", *DRAFT, "-o", target)
