@@ -233,9 +233,10 @@ def _beside(planes: Floats, corners: Sequence[Floats], own: Sequence[_Mask], tou
 
 
 def _close(corners: Floats, triangles: Ints, pairs: Ints, touch: float) -> Ints:
-    """Those pairs neither of which is clear, but for what they share, of the other's plane.
+    """Those pairs that planes alone do not tell apart.
 
-    Of two triangles one of which is so, that one meets the other's plane in what they share only.
+    They do so where there is no common vertex and one triangle is clear of the other's plane, or
+    where there is one and both are but for that.
     """
     corners = corners - corners.mean(axis=(0, 1))
     normal = _normal(corners)
@@ -247,13 +248,13 @@ def _close(corners: Floats, triangles: Ints, pairs: Ints, touch: float) -> Ints:
     own_of_one = [~(row[0] | row[1] | row[2]) for row in same]
     own_of_other = [~(a | b | c) for a, b, c in zip(*same, strict=True)]
     by_corner = [np.ascontiguousarray(corners[:, n]) for n in range(3)]
-    clear = np.zeros(len(pairs), dtype=bool)
+    clear = []
     for own, facing, is_own in ((one, other, own_of_one), (other, one, own_of_other)):
         shown = [corner.take(own, axis=0) for corner in by_corner]
-        clear |= _beside(planes.take(facing, axis=0), shown, is_own, touch)
-    # A face that is there twice has no corner of its own.
-    twice = ~(own_of_one[0] | own_of_one[1] | own_of_one[2])
-    return np.asarray(pairs[twice | ~clear])
+        clear.append(_beside(planes.take(facing, axis=0), shown, is_own, touch))
+    shared = 3 - np.sum(own_of_one, axis=0)
+    apart = np.where(shared == 0, clear[0] | clear[1], (shared == 1) & clear[0] & clear[1])
+    return np.asarray(pairs[~apart])
 
 
 def crossing_faces(points: Floats, triangles: Ints, *, touch: float | None = None) -> Ints:

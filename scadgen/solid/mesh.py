@@ -113,8 +113,8 @@ def edge_faults(triangles: Ints) -> Ints:
 
 
 def _labels(count: int, one: Ints, other: Ints) -> tuple[int, Ints]:
-    starts = np.searchsorted(np.sort(one), np.arange(count + 1))
-    ends = other[np.argsort(one, kind="stable")]
+    order = np.argsort(one, kind="stable")
+    starts, ends = np.searchsorted(one[order], np.arange(count + 1)), other[order]
     graph = csr_array((np.ones(len(one), dtype=np.int8), ends, starts), shape=(count, count))
     found, labels = connected_components(graph, directed=False)
     return int(found), labels.astype(np.int64)
