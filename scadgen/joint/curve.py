@@ -16,6 +16,7 @@ from scipy.optimize import brentq
 
 from scadgen.joint.weave import Weave
 from scadgen.solid.affine import Floats, Ints
+from scadgen.solid.vectors import cross
 
 __all__ = ["SiteCurve", "distances", "nearest_curve", "slopes"]
 
@@ -166,7 +167,7 @@ class SiteCurve:
         place, first, second = _Curves([self]).derivatives(np.zeros(len(u), dtype=np.intp), u)
         ways = np.linalg.norm(np.diff(place.stacked(), axis=0), axis=1)
         arc = float(ways.reshape(-1, _FINER).sum(axis=1).max()) / 2
-        across = np.cross(first.stacked(), second.stacked())
+        across = cross(first.stacked(), second.stacked())
         bend = np.linalg.norm(across, axis=1) / first.dot(first) ** 1.5
         return _SHARPER * arc, _SHARPER * float(bend.max())
 

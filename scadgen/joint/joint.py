@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
 
@@ -211,8 +211,6 @@ def make_joint(
     position: dict[Key, Floats] = dict(zip(corners, places, strict=True))
     walls = merge_short_sides(walls, position, 1 / detail.cells)
     walls = fanned(walls, position, curves)
-    nodes: Iterator[Key] = (("node", 0, i, j, k) for i, j, k in np.ndindex(labels.shape))
-    position.update(zip(nodes, lattice.nodes.reshape(-1, 3), strict=True))
     pairs = {edge: halves(lattice, labels, walls, position, edge) for edge in computed}
     for edge, (first, _) in pairs.items():
         if _mirrored(steps, 2 * edge):

@@ -50,7 +50,7 @@ def halves(
     walls
         All polygons of all walls.
     position
-        Where each vertex is, nodes included, in sides.
+        Where each vertex of a wall is, in sides.
     edge
         Number of the connector's edge.
 
@@ -69,7 +69,12 @@ def halves(
                 sides[facet].append((start, stop))
     for facet, start, stop in cut.domain_sides():
         sides[facet].append((start, stop))
-    return _parted(polygons, sides, position, float(lattice.edges[edge]))
+    names = sorted(
+        {v for corners in polygons for v in corners}.union(*itertools.chain(*sides.values()))
+    )
+    number = {name: n for n, name in enumerate(names)}
+    points = [lattice.nodes[k[2:]] if k[0] == "node" else position[k] for k, _ in names]
+    return _parted(polygons, sides, number, np.array(points), float(lattice.edges[edge]))
 
 
 class _Cut:
@@ -193,15 +198,11 @@ class _Cut:
 def _parted(
     polygons: Sequence[tuple[_Sided, ...]],
     sides: dict[Facet, list[tuple[_Sided, _Sided]]],
-    position: dict[Key, Floats],
+    number: dict[_Sided, int],
+    points: Floats,
     angle: float,
 ) -> tuple[Surface, Surface]:
-    """Number the vertices and tell the two halves apart."""
-    names = sorted(
-        {v for corners in polygons for v in corners}.union(*itertools.chain(*sides.values()))
-    )
-    number = {name: n for n, name in enumerate(names)}
-    points = np.array([position[key] for key, _ in names])
+    """Tell the two halves apart."""
     c, s = np.cos(angle), np.sin(angle)
     points = points @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     walls = ([number[v] for v in corners] for corners in polygons)
@@ -211,7 +212,7 @@ def _parted(
         for facet, pairs in sorted(sides.items())
     }
     links = np.concatenate([triangles[:, :2], triangles[:, 1:], *outlines.values()])
-    graph = coo_matrix((np.ones(len(links)), links.T), shape=(len(names), len(names)))
+    graph = coo_matrix((np.ones(len(links)), links.T), shape=(len(points), len(points)))
     count, part = connected_components(graph, directed=False)
     of_side = [
         {int(part[number[v]]) for v in itertools.chain(*sides.get(("split", side), ()))}

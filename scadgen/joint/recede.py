@@ -79,7 +79,7 @@ def _facets(surface: Surface, moving: Collection[Facet], start: int) -> tuple[In
     first = np.cumsum(sizes) - sizes
     origin = np.repeat(surface.points[sides[first, 0]], sizes, axis=0)
     # Newell's formula asks for no order of the sides.
-    spans = np.cross(*(surface.points[ends] - origin for ends in sides.T))
+    spans = cross(*(surface.points[ends] - origin for ends in sides.T))
     normals = _unit(np.add.reduceat(spans, first))
     values = np.array([-1.0 if facet in moving else 0.0 for facet in surface.outlines])
     return sides[:, 0] + start, np.repeat(normals, sizes, axis=0), np.repeat(values, sizes)
@@ -120,7 +120,7 @@ class _Limits:
         self._start = np.einsum("vij,vj->vi", inverse, np.where(held, values[which], 0.0))
         self._free = np.eye(3) - inverse @ on
         corners = points[walls]
-        faces = _unit(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+        faces = _unit(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
         # The rows of walls, those of one vertex after the other, and where each vertex's are.
         order = np.argsort(walls.ravel(), kind="stable")
         self._vertex = walls.ravel()[order]

@@ -187,74 +187,76 @@ def _meet(p: Floats, q: Floats, touch: float) -> _Mask:
     return meet
 
 
-def _shared_first(one: Ints, other: Ints) -> tuple[Ints, Ints, Ints]:
-    """Turn each triangle so that the shared vertices come first; and how many they are.
-
-    Both triangles of a pair keep their shared vertices in *some* order, which is all
-    that the tests need.
-    """
-    same = one[:, :, None] == other[:, None, :]
-    in_one, in_other = same.any(axis=2), same.any(axis=1)
-    first = np.argsort(~in_one, axis=1, kind="stable")
-    second = np.argsort(~in_other, axis=1, kind="stable")
-    count: Ints = in_one.sum(axis=1)
-    return (
-        np.take_along_axis(one, first, axis=1),
-        np.take_along_axis(other, second, axis=1),
-        count,
-    )
-
-
-def _folded(p: Floats, q: Floats, touch: float) -> _Mask:
-    """Whether two triangles that share their first two corners lie on each other."""
-    edge = p[:, 1] - p[:, 0]
-    up = cross(_normal(p), edge)
-    height = q[:, 2] - p[:, 0]
-    normal = _normal(p)
-    off = np.abs((normal * height).sum(axis=1)) <= touch * np.linalg.norm(normal, axis=1)
+def _folded(p: Floats, far: Floats, touch: float) -> _Mask:
+    """Whether triangles lie on others, which have the first two corners and a far one."""
+    normal, height = _normal(p), far - p[:, 0]
+    up = cross(normal, p[:, 1] - p[:, 0])
+    off = np.abs(dot(normal, height)) <= touch * np.linalg.norm(normal, axis=1)
     # `up` points away from p's third corner or towards it; only agreement matters.
-    same = (up * (p[:, 2] - p[:, 0])).sum(axis=1) * (up * height).sum(axis=1) > 0
+    same = dot(up, p[:, 2] - p[:, 0]) * dot(up, height) > 0
     folded: _Mask = off & same
     return folded
 
 
-def _beside(planes: Floats, corners: Sequence[Floats], own: Sequence[_Mask], touch: float) -> _Mask:
-    """Whether all own corners of each triangle are on one side of a plane, clear of it.
+def _common(triangles: Ints, pairs: Ints) -> tuple[_Mask, _Mask]:
+    """Which corners of each of two triangles are corners of the other, ``(3, k)`` each."""
+    one, other = (np.ascontiguousarray(triangles.take(side, axis=0).T) for side in pairs.T)
+    same = one[:, None] == other
+    return same.any(axis=1), same.any(axis=0)
+
+
+def _clear(planes: Floats, corners: Sequence[Floats], common: _Mask, touch: float) -> _Mask:
+    """Whether a triangle is on one side of a plane and clear of it, but for common corners.
 
     Planes are ``(k, 4)``, unit normals and what they give in the plane; corners are three of
-    ``(k, 3)``, and those that are not a triangle's own are left out.
+    ``(k, 3)``, and of them those in `common`, ``(3, k)``, are left out.
     """
     above, below = np.ones(len(planes), dtype=bool), np.ones(len(planes), dtype=bool)
-    for corner, is_own in zip(corners, own, strict=True):
+    for corner, is_common in zip(corners, common, strict=True):
         height = dot(corner, planes[:, :3]) - planes[:, 3]
-        above &= ~is_own | (height > touch)
-        below &= ~is_own | (height < -touch)
+        above &= is_common | (height > touch)
+        below &= is_common | (height < -touch)
     return above | below
 
 
-def _close(corners: Floats, triangles: Ints, pairs: Ints, touch: float) -> Ints:
-    """Those pairs that planes alone do not tell apart.
+def _odd_last(corners: Floats, faces: Ints, odd: Ints) -> Floats:
+    """Triangles turned so that one corner of each comes last, ``(k, 3, 3)``."""
+    order = 3 * faces[:, None] + (odd[:, None] + np.array([1, 2, 0])) % 3
+    return corners.reshape(-1, 3).take(order, axis=0)
 
-    They do so where there is no common vertex and one triangle is clear of the other's plane, or
-    where there is one and both are but for that.
+
+def _crossing(corners: Floats, triangles: Ints, pairs: Ints, touch: float) -> _Mask:
+    """Which pairs of faces are what `crossing_faces` looks for.
+
+    Planes go first: what is clear of the other's needs no other test.
     """
-    corners = corners - corners.mean(axis=(0, 1))
-    normal = _normal(corners)
+    centred = corners - corners.mean(axis=(0, 1))
+    normal = _normal(centred)
     normal /= np.maximum(np.linalg.norm(normal, axis=1), np.finfo(float).tiny)[:, None]
-    planes = np.column_stack([normal, dot(normal, corners[:, 0])])
+    planes = np.column_stack([normal, dot(normal, centred[:, 0])])
+    by_corner = [np.ascontiguousarray(centred[:, n]) for n in range(3)]
+    common = _common(triangles, pairs)
     one, other = pairs.T
-    names = [np.ascontiguousarray(triangles.take(side, axis=0).T) for side in (one, other)]
-    same = [[a == b for b in names[1]] for a in names[0]]
-    own_of_one = [~(row[0] | row[1] | row[2]) for row in same]
-    own_of_other = [~(a | b | c) for a, b, c in zip(*same, strict=True)]
-    by_corner = [np.ascontiguousarray(corners[:, n]) for n in range(3)]
-    clear = []
-    for own, facing, is_own in ((one, other, own_of_one), (other, one, own_of_other)):
-        shown = [corner.take(own, axis=0) for corner in by_corner]
-        clear.append(_beside(planes.take(facing, axis=0), shown, is_own, touch))
-    shared = 3 - np.sum(own_of_one, axis=0)
-    apart = np.where(shared == 0, clear[0] | clear[1], (shared == 1) & clear[0] & clear[1])
-    return np.asarray(pairs[~apart])
+    views = (one, other, common[0]), (other, one, common[1])
+    clear = [
+        _clear(planes.take(facing, 0), [c.take(own, 0) for c in by_corner], mine, touch)
+        for own, facing, mine in views
+    ]
+    count = common[0].sum(axis=0)
+    crossing: _Mask = count == 3
+    at = np.flatnonzero((count == 0) & ~clear[0] & ~clear[1])
+    first, second = (corners.take(side.take(at), axis=0) for side in (one, other))
+    crossing[at] = _meet(first, second, touch)
+    for (own, facing, mine), is_clear in zip(views, clear, strict=True):
+        at = np.flatnonzero((count == 1) & ~is_clear)
+        far = _odd_last(corners, own.take(at), mine[:, at].argmax(axis=0))[:, :2]
+        crossing[at] |= _meet(far, corners.take(facing.take(at), axis=0), touch)
+    at = np.flatnonzero(count == 2)
+    first, second = (
+        _odd_last(corners, own.take(at), mine[:, at].argmin(axis=0)) for own, _, mine in views
+    )
+    crossing[at] = _folded(first, second[:, 2], touch)
+    return crossing
 
 
 def crossing_faces(points: Floats, triangles: Ints, *, touch: float | None = None) -> Ints:
@@ -285,21 +287,9 @@ def crossing_faces(points: Floats, triangles: Ints, *, touch: float | None = Non
     if touch is None:
         touch = TOUCH * float(np.linalg.norm(np.ptp(corners, axis=(0, 1))))
     low, high = corners.min(axis=1)[:, None], corners.max(axis=1)[:, None]
-    found = []
-    for boxed in own_box_pairs(low - touch, high + touch):
-        pairs = _close(corners, triangles, boxed, touch)
-        one, other, shared = _shared_first(*(triangles.take(side, axis=0) for side in pairs.T))
-        bad = shared == 3
-        for count in range(3):
-            at = np.flatnonzero(shared == count)
-            p, q = (points.take(side.take(at, axis=0), axis=0) for side in (one, other))
-            if count == 0:
-                bad[at] = _meet(p, q, touch)
-            elif count == 1:
-                far, facing = np.concatenate([p, q])[:, 1:], np.concatenate([q, p])
-                bad[at] = _meet(far, facing, touch).reshape(2, -1).any(axis=0)
-            else:
-                bad[at] = _folded(p, q, touch)
-        found.append(pairs[bad])
+    found = [
+        pairs[_crossing(corners, triangles, pairs, touch)]
+        for pairs in own_box_pairs(low - touch, high + touch)
+    ]
     pairs = np.sort(np.concatenate(found), axis=1)
     return np.unique(pairs, axis=0)

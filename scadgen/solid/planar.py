@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from scadgen.errors import InvariantError
 from scadgen.solid.affine import Floats, Ints
+from scadgen.solid.vectors import cross
 
 __all__ = ["triangulate"]
 
@@ -80,7 +81,7 @@ def _in_plane(corners: Floats, ring: Ints, owner: Ints) -> Floats:
     after[np.append(first[1:], len(ring)) - 1] = first
     # Newell's formula, from a corner of the facet's own.
     origin = corners[first[np.searchsorted(owner, owner)]][ring]
-    spans = np.cross(corners - origin, corners[after] - origin)
+    spans = cross(corners - origin, corners[after] - origin)
     of = owner[ring]
     total = np.add.reduceat(spans, np.searchsorted(of, np.arange(of[-1] + 1)))
     length = np.linalg.norm(total, axis=1)
@@ -88,9 +89,9 @@ def _in_plane(corners: Floats, ring: Ints, owner: Ints) -> Floats:
         msg = "facet with an area: an outline encloses none"
         raise InvariantError(msg)
     normal = total / length[:, None]
-    across = np.cross(np.eye(3)[np.abs(normal).argmin(axis=1)], normal)
+    across = cross(np.eye(3)[np.abs(normal).argmin(axis=1)], normal)
     across /= np.linalg.norm(across, axis=1)[:, None]
-    plane = np.stack([across, np.cross(normal, across)], axis=1)
+    plane = np.stack([across, cross(normal, across)], axis=1)
     return np.asarray(np.einsum("kji,ki->kj", plane[of], corners))
 
 
