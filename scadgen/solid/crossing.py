@@ -222,7 +222,7 @@ def _clear(planes: Floats, corners: Sequence[Floats], common: _Mask, touch: floa
 def _odd_last(corners: Floats, faces: Ints, odd: Ints) -> Floats:
     """Triangles turned so that one corner of each comes last, ``(k, 3, 3)``."""
     order = 3 * faces[:, None] + (odd[:, None] + np.array([1, 2, 0])) % 3
-    return corners.reshape(-1, 3).take(order, axis=0)
+    return np.asarray(corners.reshape(-1, 3).take(order, axis=0))
 
 
 def _crossing(corners: Floats, triangles: Ints, pairs: Ints, touch: float) -> _Mask:
