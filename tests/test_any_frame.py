@@ -3,26 +3,33 @@
 import itertools
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from kits import bounds, once
+from scipy.spatial import cKDTree
 
 from scadgen.check.geometry import closed, footprint, gaps, partition, placed, same
 from scadgen.check.locking import joint_locks
 from scadgen.check.proof import proved
+from scadgen.element.pieces import half
 from scadgen.emit.placing import placing
 from scadgen.emit.readme import readme
 from scadgen.emit.scad import scad
 from scadgen.emit.scad_parameters import views
-from scadgen.errors import GeometryError, InputError
+from scadgen.errors import GeometryError, InputError, KitError
 from scadgen.frame.catalogue import named
 from scadgen.frame.graph import make_frame
+from scadgen.joint.weave import any_joint
 from scadgen.kit.bill import lines
 from scadgen.kit.build import Request, build
+from scadgen.kit.named import alike_pieces
+from scadgen.kit.pieces import best_pieces
 from scadgen.kit.store import dumps, loads, summary
 from scadgen.plan.motion import motion_of
 from scadgen.plan.order import make_plan
+from scadgen.plan.standing import stand
 from scadgen.plan.whole import whole_frame
 from scadgen.plan.words import plan_text
 from scadgen.solid.gap import smallest_gap
@@ -94,15 +101,15 @@ def test_the_parts_of_4612_are_those_reasoned_out_by_hand():
     made = dozen()
     assert [len(joint.turns) for joint in made.joints] == [3, 3]
     assert len(made.elements) == 3
-    halves = {place.at: place.part for place in made.placements if place.role == "half_a"}
-    assert len(set(halves.values())) == 2
+    kinds = {place.at: place.joint for place in made.placements if place.role == "half_a"}
+    assert set(kinds.values()) == {"A", "B"}
     for place in made.placements:
         if place.part in made.elements:
             times = made.parts[place.part].coefficients["edge_length"][:, 0].max()
             turn = math.radians(place.turn)
             end = np.array(place.at) + times * np.array([math.cos(turn), math.sin(turn)])
-            far = min(halves, key=lambda at: np.hypot(*(end - at)))
-            assert halves[place.at] != halves[far]
+            far = min(kinds, key=lambda at: np.hypot(*(end - at)))
+            assert kinds[place.at] != kinds[far]
 
 
 def test_one_of_two_joints_is_turned_over():
@@ -122,6 +129,67 @@ def test_halves_of_one_shape_have_one_name():
     # the joint is not alike on both sides of that edge.
     made = build(request(named("3.4.6.4", rows=1, columns=1)))
     assert sorted(len(joint.half_parts) for joint in made.joints) == [1, 2]
+
+
+def spiders():
+    """Three joints of three edges, no two angles the same, in a row."""
+    middles = np.array([[0.0, 0.0], [200.0, -90.0], [390.0, -30.0]])
+    points, edges = middles.tolist(), [[0, 1], [1, 2]]
+    for start, turns in ((0, (115, 225)), (1, (270,)), (2, (75, 315))):
+        for turn in np.radians(turns):
+            edges.append([start, len(points)])
+            points.append((middles[start] + 150 * np.array([np.cos(turn), np.sin(turn)])).tolist())
+    return points, edges
+
+
+def test_joints_of_any_angles_share_their_halves():
+    # Walls beside a key are the same in any gap, so that halves A of all joints whose rings are
+    # equally large are one part, and halves B.  Lone ends are such joints with caps.
+    made = build(request(make_frame("spiders", *spiders())))
+    assert len({joint.turns for joint in made.joints}) == 3
+    for role in ("half_a", "half_b"):
+        assert len({p.part for joint in made.joints for p in joint.pieces if p.role == role}) == 1
+    # They are no other shape than what each joint by itself is given.
+    for joint in made.joints:
+        weave = any_joint(math.radians(np.diff([*joint.turns, 360]).min()))
+        own = best_pieces(joint.directions, weave, made.key, made.detail, joint.keys, bored=False)
+        for piece, role in zip(own.halves[joint.keys[0]], ("half_a", "half_b"), strict=True):
+            (name,) = {p.part for p in joint.pieces if p.role == role}
+            shared, solid = made.parts[name], half(own.key, piece)
+            for clearance in (0.0, 0.5):
+                values = {**made.values, "clearance": clearance}
+                far = cKDTree(shared.points(values)).query(solid.points(values))[0]
+                assert far.max() < 1e-4
+
+
+def test_parts_know_the_kind_of_joint_that_they_are_pieces_of():
+    made = dozen()
+    standing = stand(made)
+    for site in standing.sites:
+        for part in site.connectors.values():
+            if part not in standing.elements:
+                assert made.placements[part].joint == site.kind.name
+    again = loads(dumps(made))
+    assert again.placements == made.placements
+    lost = [replace(place, joint="C") for place in made.placements if place.role == "half_a"]
+    others = [place for place in made.placements if place.role != "half_a"]
+    with pytest.raises(KitError, match="a piece of joint 'C', which is not there"):
+        loads(dumps(replace(made, placements=(*others, *lost))))
+
+
+def test_a_joint_turned_over_has_the_same_connectors_turned_over():
+    gaps = np.radians([100.0, 120.0, 140.0])
+    sides = [np.cumsum([0.0, *own[:-1]]) for own in (gaps, gaps[::-1])]
+    weave = any_joint(gaps.min())
+    made = [best_pieces(own, weave, "loose", "draft", [0], bored=False) for own in sides]
+    both = [piece for one in made for piece in one.connectors]
+    found = alike_pieces(both, [0] * 6, turned=True)
+    assert found[:3] == [(0, False), (1, False), (2, False)]
+    assert found[4:] == [(2, True), (1, True)]
+    assert found[3][0] == 0
+    # Nothing is turned over unless it may be, and other groups are other parts.
+    assert alike_pieces(both, [0] * 6, turned=False)[4:] == [(4, False), (5, False)]
+    assert alike_pieces(both, range(6), turned=True) == [(n, False) for n in range(6)]
 
 
 def test_a_plan_tells_what_lies_the_other_way_up():
@@ -249,7 +317,7 @@ def test_a_picture_says_where_each_piece_goes():
         elif place.role == "cap":
             expected.append(place.part.removeprefix("connector_") + other)
         elif place.role == "half_a":
-            expected.append((place.part[5] if several else "") + other)
+            expected.append((place.joint if several else "") + other)
     numbers = [str(number) for number in range(1, len(FORK[0]) + 1)]
     assert sorted(names) == sorted([*expected, *numbers])
     assert text.count("<circle") == len(FORK[0])

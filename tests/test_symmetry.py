@@ -64,16 +64,16 @@ def renumbered(surface, seed):
 
 def test_surfaces_are_alike_by_their_shape_alone():
     whole = joint("hexagonal").connectors[0]
-    assert whole.is_like(renumbered(whole, 4))
-    assert whole.is_like(half_turn(half_turn(whole)))
+    assert whole.match(renumbered(whole, 4)) is not None
+    assert whole.match(half_turn(half_turn(whole))) is not None
     moved = whole.points.copy()
     moved[17] += 1e-3
-    assert not whole.is_like(Surface(moved, whole.walls, whole.outlines))
-    assert not whole.is_like(Surface(whole.points, whole.walls[:, ::-1], whole.outlines))
+    assert whole.match(Surface(moved, whole.walls, whole.outlines)) is None
+    assert whole.match(Surface(whole.points, whole.walls[:, ::-1], whole.outlines)) is None
     bent = make_joint([0.0, 2.0, 4.0], any_joint(2.0), DETAILS["draft"], keys=[0])
-    assert not bent.connectors[0].is_like(bent.connectors[1])
+    assert bent.connectors[0].match(bent.connectors[1]) is None
     mirror = Surface(whole.points * [1, -1, 1], whole.walls[:, ::-1], whole.outlines)
-    assert not whole.is_like(mirror)
+    assert whole.match(mirror) is None
 
 
 @st.composite
@@ -107,4 +107,4 @@ def test_what_is_alike_by_angles_and_keys_is_one_part_however_it_is_rounded(star
 def test_a_regular_joint_is_one_connector_and_one_half():
     made = make_joint(regular(3), any_joint(TURN / 3), DETAILS["draft"], keys=[0])
     assert made.alike == ((0, False), (1, False), (1, True))
-    assert made.halves[0][0].is_like(half_turn(made.halves[0][1]))
+    assert made.halves[0][0].match(half_turn(made.halves[0][1])) is not None

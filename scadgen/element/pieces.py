@@ -19,6 +19,9 @@ from scadgen.solid.shell import Shell
 
 __all__ = ["Piece", "add_facet", "add_surface", "corners_of", "half"]
 
+#: Displacements are the same within this share of the clearance.
+_ALIKE = 1e-4
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Piece:
@@ -37,6 +40,13 @@ class Piece:
     surface: Surface
     displacement: Floats
     rest: float
+
+    def is_like(self, other: Piece) -> bool:
+        """Whether it is the same part at any clearance, however it is numbered."""
+        match = self.surface.match(other.surface)
+        return match is not None and bool(
+            np.allclose(self.displacement, other.displacement[match], rtol=0, atol=_ALIKE)
+        )
 
     def turned_over(self) -> Piece:
         """The same after a half turn about its edge."""

@@ -52,7 +52,6 @@ def placing(kit: Kit) -> str:
     width = max(width, _WIDE)
     names = set(kit.elements)
     numbers = {at: number for number, at in enumerate(kit.vertices, 1)}
-    letters = {piece.part: one.name for one in kit.joints for piece in one.pieces}
     layers: list[list[str]] = [[], [], [], []]
     for placement, point in zip(kit.placements, points - corner, strict=True):
         if placement.part in names:
@@ -66,7 +65,7 @@ def placing(kit: Kit) -> str:
                 _text(point + _ahead(placement, 2.6 * _JOINT), placement.marked(which))
             )
         elif placement.role == "half_a":
-            letter = placement.marked(letters[placement.part])
+            letter = placement.marked(placement.joint)
             layers[1].append(_joint(point, str(numbers[placement.at]), letter))
         elif placement.role == "peg":
             layers[2].append(_peg(point + _ahead(placement, 1.4 * _JOINT)))

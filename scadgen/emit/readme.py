@@ -23,6 +23,9 @@ __all__ = ["readme"]
 #: Decimals to which bounds are shown, rounded inwards.
 _DECIMALS = 2
 
+#: What halves are called, by their role.
+_HALVES = {"half_a": "half A", "half_b": "half B"}
+
 #: All that has a meaning in the middle of a line of Markdown.
 _MARKS = re.compile(r"([\\`*_\[\]<>&|~#!])")
 
@@ -64,11 +67,6 @@ def readme(kit: Kit) -> str:
         joints=[_joint(kit, one) for one in kit.joints],
         grid=kit.rows > 0,
         half_names=sorted({name for one in kit.joints for name in one.half_parts}),
-        half_a_over=any(
-            place.role == "half_a" and place.part.endswith("_over")
-            for one in kit.joints
-            for place in one.pieces
-        ),
         other_way_up=any(place.other_way_up for place in kit.placements),
         side=literal(kit.values["side"]),
         peg_length=literal(kit.values["peg_length"]),
@@ -97,10 +95,13 @@ def _joint(kit: Kit, one: Joint) -> dict[str, Any]:
 
 
 def _counted(one: Joint, part: str, count: int) -> str:
-    """How many of a part a joint has, and where from its first key it lies turned over."""
-    over = [f"{p.turn:.4g}°" for p in one.pieces if p.part == part and p.other_way_up]
-    turned = f" (turned over at {', '.join(over)})" if over else ""
-    return f"{count} x `{part}`{turned}"
+    """How many of a part a joint has, as which half, and where from its key it lies turned over."""
+    mine = [p for p in one.pieces if p.part == part]
+    roles = {p.role for p in mine}
+    notes = [half for role, half in _HALVES.items() if roles == {role}]
+    if over := [f"{p.turn:.4g}°" for p in mine if p.other_way_up]:
+        notes.append(f"turned over at {', '.join(over)}")
+    return f"{count} x `{part}`" + (f" ({', '.join(notes)})" if notes else "")
 
 
 def _needed(kit: Kit, line: Line) -> dict[str, Any]:

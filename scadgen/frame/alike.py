@@ -15,36 +15,43 @@ from numpy.typing import NDArray
 from scadgen.joint.symmetry import Symmetry
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["Alike", "Ends", "alike_slots"]
+__all__ = ["Alike", "Ends", "Slots"]
 
 
-def alike_slots(
-    symmetries: Sequence[Symmetry], kind: Ints, slot: Ints
-) -> tuple[Ints, NDArray[np.bool_], NDArray[np.bool_]]:
-    """The first slot that is like each of some, of joints of some kinds.
+@dataclass(frozen=True, slots=True, eq=False)
+class Slots:
+    """Which slots of all kinds of joints are alike.
 
     Parameters
     ----------
-    symmetries
-        Of each kind.
-    kind, slot
-        ``(...) int``: which kind, and which of its slots.
-
-    Returns
-    -------
-    first
-        ``(...) int``.
+    what
+        ``(kinds, most) int``: the kind times `most`, and more than that by the slot, of the first
+        that is like each; unused slots are zero.
     over
-        ``(...) bool``: whether it is turned over for it.
+        ``(kinds, most) bool``: whether that is turned over for it.
     either
-        ``(...) bool``: whether it is like itself turned over.
+        ``(kinds, most) bool``: whether it is like itself turned over.
     """
-    table = np.zeros((len(symmetries), max(one.count for one in symmetries), 3), dtype=np.int64)
-    for number, one in enumerate(symmetries):
-        for n in range(one.count):
-            table[number, n] = *one.alike(n), one.either(n)
-    found = table[kind, slot]
-    return found[..., 0], found[..., 1].astype(bool), found[..., 2].astype(bool)
+
+    what: Ints
+    over: NDArray[np.bool_]
+    either: NDArray[np.bool_]
+
+    @property
+    def most(self) -> int:
+        """Slots of the joint that has the most."""
+        return int(self.what.shape[1])
+
+    @classmethod
+    def of(cls, symmetries: Sequence[Symmetry]) -> Slots:
+        """Those of the same kind that are alike by its symmetry."""
+        most = max(one.count for one in symmetries)
+        table = np.zeros((3, len(symmetries), most), dtype=np.int64)
+        for number, one in enumerate(symmetries):
+            for slot in range(one.count):
+                first, over = one.alike(slot)
+                table[:, number, slot] = number * most + first, over, one.either(slot)
+        return cls(table[0], *table[1:].astype(bool))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from scadgen.frame.alike import Ends, alike_slots
+from scadgen.frame.alike import Ends, Slots
 from scadgen.frame.graph import Frame
 from scadgen.frame.hosts import Hosted, Shape, hosted
 from scadgen.frame.keys import Places, Refused, choose_keys
@@ -78,12 +78,7 @@ class Kinds:
             for shape in [self.shapes[kind.shape]]
         )
 
-    @property
-    def most(self) -> int:
-        """Slots of the joint that has the most."""
-        return max(len(shape.directions) for shape in self.shapes)
-
-    def ends(self, edges: Ints, lengths: Floats, sockets: Sequence[int]) -> Ends:
+    def ends(self, edges: Ints, lengths: Floats, sockets: Sequence[int], slots: Slots) -> Ends:
         """What the elements of some edges end in.
 
         Parameters
@@ -94,22 +89,22 @@ class Kinds:
             ``(m,) float``: theirs; the same for those that may be the same part.
         sockets
             For each kind a number under that of all kinds: what an element ends in at a key.
+        slots
+            Which connectors are the same.
 
         Returns
         -------
         ends
-            Connectors have the number of all kinds, and more than that by their kind times
-            `most` and their slot, the first of those that are alike.
+            Connectors have the number of all kinds, and more than that by what they are.
         """
-        kind = self.kind_of[edges]
-        first, over, either = alike_slots(self.symmetries, kind, self.slots)
-        keyed = np.zeros((len(self.kinds), self.most), dtype=bool)
+        place = self.kind_of[edges], self.slots
+        keyed = np.zeros(slots.what.shape, dtype=bool)
         for number, one in enumerate(self.kinds):
             keyed[number, list(one.keys)] = True
-        split = keyed[kind, self.slots]
-        connectors = len(self.kinds) + kind * self.most + first
-        what = np.where(split, np.array(sockets)[kind], connectors)
-        return Ends(what, over ^ self.over[edges], either | split, lengths)
+        split = keyed[place]
+        what = np.where(split, np.array(sockets)[place[0]], len(self.kinds) + slots.what[place])
+        over, either = slots.over[place] ^ self.over[edges], slots.either[place] | split
+        return Ends(what, over, either, lengths)
 
     def directions(self, vertex: int) -> Floats:
         """Where the connectors of a vertex point, by slot, in radians."""
@@ -157,7 +152,8 @@ def _parts(kinds: Kinds, frame: Frame, same: Sameness) -> int:
     """How many kinds of joints and of edge elements there are."""
     # Sockets are those of a ring, which joints of one shape have alike.
     sockets = [one.shape for one in kinds.kinds]
-    elements = kinds.ends(frame.edges, same.lengths, sockets).alike()
+    slots = Slots.of(kinds.symmetries)
+    elements = kinds.ends(frame.edges, same.lengths, sockets, slots).alike()
     return len(kinds.kinds) + len(elements.what)
 
 

@@ -34,6 +34,9 @@ class Placement:
         of half A).
     role
         What it is to the viewer: one colour each.
+    joint
+        Letter of the kind of joint that it is a piece of; empty for edge elements, and where
+        there is one kind.
     """
 
     part: str
@@ -41,6 +44,7 @@ class Placement:
     turn: float
     flip: bool
     role: str
+    joint: str = ""
 
     @property
     def other_way_up(self) -> bool:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scadgen.errors import InputError
-from scadgen.frame.alike import Ends, alike_slots
+from scadgen.frame.alike import Ends, Slots
 from scadgen.frame.congruence import JointClass, congruent_joints
 from scadgen.frame.graph import Frame
 from scadgen.frame.planarity import where
@@ -163,10 +163,10 @@ def sameness(
     lengths, length_of = group_values(frame.lengths, length_tolerance)
     kind, way = joint_of[frame.edges], 1 - 2 * over
     slot = way[frame.edges] * (frame.slots - shift[frame.edges]) % frame.degree[frame.edges]
-    first, turned, either = alike_slots([joint.symmetry for joint in joints], kind, slot)
-    most = int(frame.degree.max())
-    turned ^= over[frame.edges].astype(bool)
-    found = Ends(kind * most + first, turned, either, lengths[length_of]).alike()
+    alike = Slots.of([joint.symmetry for joint in joints])
+    turned = alike.over[kind, slot] ^ over[frame.edges].astype(bool)
+    ends = Ends(alike.what[kind, slot], turned, alike.either[kind, slot], lengths[length_of])
+    found, most = ends.alike(), alike.most
     members = _members(found.which, len(found.what))
     parts = zip(
         found.what.tolist(), found.over.tolist(), found.length.tolist(), members, strict=True

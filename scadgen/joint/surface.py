@@ -49,19 +49,31 @@ class Surface:
         """Closed outlines of a facet."""
         return chain(self.outlines[facet])
 
-    def is_like(self, other: Surface) -> bool:
-        """Whether it is the same shape, however it is numbered."""
+    def match(self, other: Surface) -> Ints | None:
+        """The number of each vertex in another surface, if that is the same shape.
+
+        Parameters
+        ----------
+        other
+            The other surface, which may be numbered in any way.
+
+        Returns
+        -------
+        match
+            ``(v,) int``; None if it is another shape.
+        """
         sizes = [(len(one.points), len(one.walls), set(one.outlines)) for one in (self, other)]
         if sizes[0] != sizes[1]:
-            return False
+            return None
         far, found = cKDTree(other.points).query(self.points)
         match = np.asarray(found)
         if np.max(far) > _ALIKE or len(np.unique(match)) < len(match):
-            return False
-        return _same_rows(_cycles(match[self.walls]), _cycles(other.walls)) and all(
+            return None
+        same = _same_rows(_cycles(match[self.walls]), _cycles(other.walls)) and all(
             _same_rows(match[sides], other.outlines[facet])
             for facet, sides in self.outlines.items()
         )
+        return match if same else None
 
 
 def _cycles(triangles: Ints) -> Ints:

@@ -1,6 +1,6 @@
 """Kits of any frame: a kind of joint for each set of angles and keys, an element for each edge's.
 
-Joints have letters.  A connector is named by its joint and the first edge there that has it,
+Joints have letters.  A connector is named by the first joint and edge that has it,
 ``connector_A1``, and so are the halves it may be split into: ``half_A1``, and ``half_A1_over`` for
 half B where that is another part.  Edge elements are numbered.
 """
@@ -24,11 +24,11 @@ from scadgen.frame.kinds import Kinds, choose_kinds
 from scadgen.frame.placement import Placement
 from scadgen.frame.planarity import corner, where
 from scadgen.frame.sameness import Sameness, joint_name, sameness
-from scadgen.joint.symmetry import Symmetry
 from scadgen.joint.weave import Weave, any_joint
 from scadgen.kit.apart import Apart
-from scadgen.kit.elements import ElementEnd, Elements, edge_elements, firsts
+from scadgen.kit.elements import ElementEnd, Elements, edge_elements
 from scadgen.kit.model import Joint, Kit
+from scadgen.kit.named import Named
 from scadgen.kit.pieces import Pieces
 from scadgen.kit.ranges import LONGEST, SIDE, check_values, edge_range, ranges
 from scadgen.kit.request import Request, default_values
@@ -215,23 +215,6 @@ def _wanted(request: Request, frame: Frame, kinds: Kinds, number: int, weave: We
     )
 
 
-def _check_alike(pieces: Pieces, symmetry: Symmetry) -> None:
-    """See to it that what is alike by angles and keys is one part.
-
-    Raises
-    ------
-    InvariantError
-        It is not.
-    """
-    for slot, piece in enumerate(pieces.connectors):
-        first, over = symmetry.alike(slot)
-        other = pieces.connectors[first]
-        same = (other.turned_over() if over else other).surface.points
-        if not np.array_equal(same, piece.surface.points):
-            msg = f"connectors of edges that are alike are the same: {slot} and {first} are not"
-            raise InvariantError(msg)
-
-
 @dataclass(frozen=True, eq=False)
 class _Build:
     """What a frame's parts and placements are made from."""
@@ -247,11 +230,16 @@ class _Build:
         return round(_shortest(self.same), _LENGTH_DECIMALS)
 
     @cached_property
+    def named(self) -> Named:
+        """The parts of its joints."""
+        return Named(self.pieces, self.kinds.symmetries)
+
+    @cached_property
     def elements(self) -> Elements:
         """Its edge elements."""
         lengths = (self.same.lengths / self.unit).round(_DECIMALS)
-        keys = [one.key for one in self.pieces]
-        return edge_elements(self.kinds, self.frame.edges, lengths, keys)
+        named = self.named
+        return edge_elements(self.kinds, self.frame.edges, lengths, named.keys, named.slots)
 
     def limits(self) -> tuple[Range, ...]:
         """What the live parameters may be, so that all joints and elements are sound."""
@@ -284,21 +272,9 @@ class _Build:
             for name, one in self.elements.kinds.items()
             for near, far in [map(self._surface, one.ends)]
         ]
-        symmetries = self.kinds.symmetries
-        for number, one in enumerate(self.pieces):
-            _check_alike(one, symmetries[number])
-            for slot in symmetries[number].firsts:
-                solid = connector(one.key, one.connectors[slot])
-                solids.append(replace(solid, name=self._name("connector", number, slot)))
-        for number, one in enumerate(self.pieces):
-            for slot in sorted({symmetries[number].alike(slot)[0] for slot in one.halves}):
-                names = self._halves(number, slot)
-                for name, piece in dict(zip(names, one.halves[slot], strict=True)).items():
-                    solids.append(replace(half(one.key, piece), name=name))
-        solids += [
-            replace(peg(self.pieces[number].key), name=self._peg(number))
-            for number in range(len(self.pieces))
-        ]
+        for made, pieces in ((connector, self.named.connectors), (half, self.named.halves)):
+            solids += [replace(made(*piece), name=name) for name, piece in pieces.items()]
+        solids += [replace(peg(key), name=name) for name, key in self.named.pegs.items()]
         return {solid.name: solid for solid in solids}
 
     def _surface(self, end: ElementEnd) -> End:
@@ -308,21 +284,8 @@ class _Build:
         whole = one.connectors[end.slot]
         return connector_end(one.key, whole.turned_over() if end.over else whole)
 
-    def _name(self, what: str, number: int, slot: int) -> str:
-        return f"{what}_{joint_name(number)}{self.kinds.symmetries[number].alike(slot)[0] + 1}"
-
-    def _halves(self, number: int, slot: int) -> tuple[str, str]:
-        """Names of half A and half B, the same where they are the same part."""
-        slot, over = self.kinds.symmetries[number].alike(slot)
-        first, second = self.pieces[number].halves[slot]
-        name = self._name("half", number, slot)
-        names = name, name if first is second else f"{name}_over"
-        return names[::-1] if over else names
-
-    def _peg(self, number: int) -> str:
-        """Name of a joint's peg: those that start in the same place are the same."""
-        alike = firsts([round(one.key.pad, _DECIMALS) for one in self.pieces])
-        return f"peg_{joint_name(alike[number])}" if any(alike) else "peg"
+    def _joint_name(self, number: int) -> str:
+        return joint_name(number) if len(self.kinds.kinds) > 1 else ""
 
     def joint(self, number: int) -> Joint:
         """A kind of joint, turned so that its first key is along +x."""
@@ -332,16 +295,14 @@ class _Build:
         turns = np.degrees(
             (np.roll(shape.directions, -first) - shape.directions[first]) % (2 * np.pi)
         )
-        symmetry = self.kinds.symmetries[number]
+        connectors = [self.named.connector(number, (slot + first) % count) for slot in range(count)]
         return Joint(
-            name=joint_name(number) if len(self.kinds.kinds) > 1 else "",
+            name=self._joint_name(number),
             turns=tuple(turns.round(_DECIMALS).tolist()),
             keys=tuple((slot - first) % count for slot in kind.keys),
             caps=tuple(sorted((slot - first) % count for slot in kind.caps)),
-            connectors=tuple(
-                self._name("connector", number, slot + first) for slot in range(count)
-            ),
-            over=tuple(slot for slot in range(count) if symmetry.alike(slot + first)[1]),
+            connectors=tuple(name for name, _ in connectors),
+            over=tuple(slot for slot, (_, over) in enumerate(connectors) if over),
             weave=one.weave.as_dict(),
             pieces=tuple(
                 self._standing(
@@ -361,19 +322,22 @@ class _Build:
         over: bool = False,
     ) -> Iterator[Placement]:
         """The pieces of a joint where it stands: halves, connectors without a tube, pegs."""
-        kind, symmetry = self.kinds.kinds[number], self.kinds.symmetries[number]
+        kind, count, joint = self.kinds.kinds[number], len(directions), self._joint_name(number)
         degrees = (np.degrees(directions).round(_DECIMALS) % 360).tolist()
         for slot in kind.keys:
             for name, flip, role in zip(
-                self._halves(number, slot), (over, not over), ("half_a", "half_b"), strict=True
+                self.named.half_names(number, slot),
+                (over, not over),
+                ("half_a", "half_b"),
+                strict=True,
             ):
-                yield Placement(name, at, degrees[slot], flip, role)
+                yield Placement(name, at, degrees[slot], flip, role, joint)
         first = kind.keys[0]
-        for slot in sorted(set(caps) - set(kind.keys), key=lambda s: (s - first) % symmetry.count):
-            name, flip = self._name("connector", number, slot), symmetry.alike(slot)[1]
-            yield Placement(name, at, degrees[slot], flip != over, role="cap")
+        for slot in sorted(set(caps) - set(kind.keys), key=lambda s: (s - first) % count):
+            name, flip = self.named.connector(number, slot)
+            yield Placement(name, at, degrees[slot], flip != over, "cap", joint)
         for slot in kind.keys:
-            yield Placement(self._peg(number), at, degrees[slot], over, role="peg")
+            yield Placement(self.named.peg(number), at, degrees[slot], over, "peg", joint)
 
     def placements(self) -> Iterator[Placement]:
         """Where everything stands: the elements, then the pieces of each joint."""

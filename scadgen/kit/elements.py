@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import astuple, dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
-from scadgen.element.squares import Key
+from scadgen.frame.alike import Slots
 from scadgen.frame.kinds import Kinds
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["Element", "ElementEnd", "Elements", "Laid", "edge_elements", "firsts"]
-
-#: Decimals to which keys are compared, in sides.
-_DECIMALS = 9
+__all__ = ["Element", "ElementEnd", "Elements", "Laid", "edge_elements"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +19,7 @@ class ElementEnd:
     Parameters
     ----------
     number
-        Of its kind of joint.
+        Of a kind of joint that has it.
     slot
         Whose connector it is; None if it is a socket.
     over
@@ -75,7 +72,9 @@ class Elements:
     laid: Sequence[Laid]
 
 
-def edge_elements(kinds: Kinds, edges: Ints, lengths: Floats, keys: Sequence[Key]) -> Elements:
+def edge_elements(
+    kinds: Kinds, edges: Ints, lengths: Floats, sockets: Sequence[int], slots: Slots
+) -> Elements:
     """The fewest elements for a frame's edges.
 
     Parameters
@@ -86,35 +85,26 @@ def edge_elements(kinds: Kinds, edges: Ints, lengths: Floats, keys: Sequence[Key
         ``(m, 2) int``: the frame's.
     lengths
         ``(m,) float``: theirs, in edge lengths; the same for those that may be the same part.
-    keys
-        What the keys of each kind of joint are like.
+    sockets
+        For each kind of joint, the first whose sockets are the same.
+    slots
+        Which connectors are the same.
     """
-    alike = kinds.ends(edges, lengths, firsts([_rounded(key) for key in keys])).alike()
+    alike = kinds.ends(edges, lengths, sockets, slots).alike()
     found: dict[str, Element] = {}
     table = zip(alike.what.tolist(), alike.over.tolist(), alike.length.tolist(), strict=True)
     for what, over, length in table:
-        near, far = (_end(kinds, *end) for end in zip(what, over, strict=True))
+        near, far = (
+            _end(len(kinds.kinds), slots.most, *end) for end in zip(what, over, strict=True)
+        )
         found[f"edge_{len(found) + 1}"] = Element((near, far), length)
     names = list(found)
     laid = zip(alike.which.tolist(), alike.swapped.tolist(), alike.flipped.tolist(), strict=True)
     return Elements(found, [Laid(names[n], swapped, flipped) for n, swapped, flipped in laid])
 
 
-def _end(kinds: Kinds, what: int, over: bool) -> ElementEnd:  # noqa: FBT001
+def _end(kinds: int, most: int, what: int, over: bool) -> ElementEnd:  # noqa: FBT001
     """What `Kinds.ends` has a number for."""
-    count = len(kinds.kinds)
-    if what < count:
+    if what < kinds:
         return ElementEnd(what, None, over=False)
-    return ElementEnd(*divmod(what - count, kinds.most), over)
-
-
-def firsts(values: Sequence[Hashable]) -> list[int]:
-    """For each value, which is the first that is the same."""
-    return [values.index(value) for value in values]
-
-
-def _rounded(key: Key) -> tuple[Hashable, ...]:
-    """All that a key is; the same for those that differ by rounding."""
-    return tuple(
-        round(value, _DECIMALS) if isinstance(value, float) else value for value in astuple(key)
-    )
+    return ElementEnd(*divmod(what - kinds, most), over)

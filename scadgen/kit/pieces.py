@@ -235,7 +235,7 @@ def _tried(made: Joint, style: str, extra: int, keys: Sequence[int], *, bored: b
 def _turned_over(first: Surface, second: Surface) -> tuple[Surface, Surface]:
     """Half A, and half B turned over, which is half A where they are alike."""
     over = half_turn(second)
-    return first, first if first.is_like(over) else over
+    return first, over if first.match(over) is None else first
 
 
 def _limit(solid: AffineSolid, key: Key) -> float:

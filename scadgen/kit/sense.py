@@ -49,6 +49,10 @@ def _check_names(kit: Kit) -> None:
         if set(kit.parts) != set(PARTS):
             msg = f"parts must be {', '.join(PARTS)}"
             raise ValueError(msg)
+    names = {one.name for one in kit.joints}
+    if unknown := {p.joint for p in kit.placements if p.role not in ("row", "cross")} - names:
+        msg = f"placements: a piece of joint {min(unknown)!r}, which is not there"
+        raise ValueError(msg)
     used = {p.part for p in kit.placements}
     used.update(*({p.part for p in one.pieces} | {*one.connectors} for one in kit.joints))
     if missing := used - set(kit.parts):

@@ -107,7 +107,8 @@ def _joint_entry(joint: Joint, *, ways: bool) -> dict[str, Any]:
 
 
 def _placement(p: Placement) -> dict[str, Any]:
-    return {"part": p.part, "at": list(p.at), "turn": p.turn, "flip": p.flip, "role": p.role}
+    found = {"part": p.part, "at": list(p.at), "turn": p.turn, "flip": p.flip, "role": p.role}
+    return found | ({"joint": p.joint} if p.joint else {})
 
 
 def _linear(linear: Linear) -> dict[str, Any]:
@@ -276,7 +277,8 @@ def _read_joint(entry: Mapping[str, Any]) -> Joint:
 
 
 def _read_placement(p: Mapping[str, Any]) -> Placement:
-    return Placement(p["part"], (p["at"][0], p["at"][1]), p["turn"], p["flip"], p["role"])
+    at = p["at"][0], p["at"][1]
+    return Placement(p["part"], at, p["turn"], p["flip"], p["role"], p.get("joint", ""))
 
 
 def _read_solid(name: str, entry: Mapping[str, Any]) -> AffineSolid:

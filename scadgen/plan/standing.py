@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -189,7 +188,8 @@ def stand(kit: Kit) -> Standing:
         for point, turn in _ends(kit, placement):
             vertex = int(tree.query(point)[1])
             at_vertex[vertex].append(_End(number, placement, turn))
-    sites = [_site(kit, at, ends) for at, ends in zip(places, at_vertex, strict=True)]
+    kinds = {kind.name: kind for kind in kit.joints}
+    sites = [_site(kit, kinds, at, ends) for at, ends in zip(places, at_vertex, strict=True)]
     return Standing(kit, tuple(sites))
 
 
@@ -219,19 +219,19 @@ def _length(kit: Kit, placement: Placement) -> float:
     return float(kit.parts[placement.part].coefficients["edge_length"][:, 0].max())
 
 
-def _site(kit: Kit, at: tuple[float, float], ends: Sequence[_End]) -> Site:
+def _site(
+    kit: Kit, kinds: Mapping[str, Joint], at: tuple[float, float], ends: Sequence[_End]
+) -> Site:
     """The joint that these ends make."""
-    for kind, over in itertools.product(kit.joints, (False, True)):
-        first = kind.pieces[0]
-        for end in ends:
-            if (end.placement.role, end.placement.part) != (first.role, first.part):
-                continue
-            off = Origin(at, 0.0, over).direction(first.turn)
+    for end in ends:
+        if end.placement.role == "half_a":
+            kind, over = kinds[end.placement.joint], end.placement.flip
+            off = Origin(at, 0.0, over).direction(kind.pieces[0].turn)
             origin = Origin(at, (end.turn - off) % 360, over)
             found = _matched(kit, kind, origin, ends)
             if found is not None:
                 return Site(kind, origin, *found)
-    msg = f"a joint at {at} is one of the kit's kinds"
+    msg = f"a joint at {at} is as its kind"
     raise InvariantError(msg)
 
 
