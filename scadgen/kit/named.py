@@ -30,8 +30,9 @@ __all__ = ["Named", "alike_keys", "alike_pieces", "firsts"]
 #: Decimals to which keys are compared, in sides.
 _DECIMALS = 9
 
-#: Means over the points of one shape differ by less, in sides and their squares.
-_NEAR = 1e-5
+#: Means over the points of one shape differ by less, in sides and their squares: points may be off
+#: by a millionth of a side, and are at most a dozen sides away.
+_NEAR = 1e-4
 
 #: A kind of joint by its number, and one of its slots.
 _Place = tuple[int, int]
