@@ -142,8 +142,8 @@ def spiders():
     return points, edges
 
 
-def test_joints_of_any_angles_share_their_halves():
-    # Walls beside a key are the same in any gap, so that halves A of all joints whose rings are
+def test_joints_with_wide_gaps_beside_their_keys_share_their_halves():
+    # Walls beside a key are the same in wide gaps, so that halves A of all joints whose rings are
     # equally large are one part, and halves B.  Lone ends are such joints with caps.
     made = build(request(make_frame("spiders", *spiders())))
     assert len({joint.turns for joint in made.joints}) == 3

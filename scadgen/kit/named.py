@@ -1,8 +1,8 @@
 """Which connectors and halves of a frame's joints are one part, and what parts are called.
 
 By angles and keys it is known which edges of one kind of joint are alike.  Shapes have more in
-common: the walls beside a key stand alike in any gap, so that joints whose rings are equally large
-mostly have the same halves.  What is one shape is one part, named by the first joint and edge, of
+common: the walls beside a key stand alike in wide gaps, so that joints whose rings are equally
+large often have the same halves.  What is one shape is one part, named by the first joint and edge, of
 those that are not alike by angles and keys, that has it.
 """
 

@@ -151,9 +151,9 @@ def _kept(means: Means) -> Iterator[Means]:
 
 def _nowhere(kit: Kit, joint: Joint, error: JointError) -> JointError:
     """The error that tells where such a joint stands, and what would help."""
-    half = joint.pieces[0].part
-    places = list(dict.fromkeys(p.at for p in kit.placements if p.role == "half_a"))
-    at = next(place.at for place in kit.placements if place.part == half)
+    halves = [place for place in kit.placements if place.role == "half_a"]
+    places = list(dict.fromkeys(place.at for place in halves))
+    at = next(place.at for place in halves if place.joint == joint.name)
     point = kit.values["edge_length"] * np.array(at)
     gaps = np.diff([*joint.turns, 360.0]).tolist()
     msg = (
