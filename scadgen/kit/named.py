@@ -2,8 +2,8 @@
 
 By angles and keys it is known which edges of one kind of joint are alike.  Shapes have more in
 common: the walls beside a key stand alike in wide gaps, so that joints whose rings are equally
-large often have the same halves.  What is one shape is one part, named by the first joint and edge, of
-those that are not alike by angles and keys, that has it.
+large often have the same halves.  What is one shape is one part, named by the first joint and
+edge, of those that are not alike by angles and keys, that has it.
 """
 
 from __future__ import annotations
