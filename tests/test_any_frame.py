@@ -21,6 +21,7 @@ from scadgen.emit.scad_parameters import views
 from scadgen.errors import GeometryError, InputError, KitError
 from scadgen.frame.catalogue import named
 from scadgen.frame.graph import make_frame
+from scadgen.frame.placement import Placement
 from scadgen.joint.weave import any_joint
 from scadgen.kit.bill import lines
 from scadgen.kit.build import Request, build
@@ -171,10 +172,51 @@ def test_parts_know_the_kind_of_joint_that_they_are_pieces_of():
                 assert made.placements[part].joint == site.kind.name
     again = loads(dumps(made))
     assert again.placements == made.placements
-    lost = [replace(place, joint="C") for place in made.placements if place.role == "half_a"]
-    others = [place for place in made.placements if place.role != "half_a"]
-    with pytest.raises(KitError, match="a piece of joint 'C', which is not there"):
-        loads(dumps(replace(made, placements=(*others, *lost))))
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"A": "C"}, "as half_a is no piece of joint 'C'"),
+        ({"A": "B", "B": "A"}, "is no piece of joint 'B'"),
+        ({"": "A"}, "edge_.* is no piece of joint 'A'"),
+    ],
+)
+def test_pieces_of_another_kind_of_joint_are_refused(changed, message):
+    made = dozen()
+    places = [replace(p, joint=changed.get(p.joint, p.joint)) for p in made.placements]
+    with pytest.raises(KitError, match=message):
+        loads(dumps(replace(made, placements=tuple(places))))
+
+
+def test_kinds_of_joints_have_different_names():
+    made = dozen()
+    first, second = made.joints
+    with pytest.raises(KitError, match="two are called 'A'"):
+        loads(dumps(replace(made, joints=(first, replace(second, name="A")))))
+
+
+def test_a_joint_stands_as_it_fits_best_however_its_pieces_are_listed():
+    # Two keys that are nearly half a turn apart, with the same halves: either could be the first.
+    gaps = np.array([90.0, 89.8, 90.0, 90.2])
+    turns = np.radians(np.cumsum([0.0, *gaps[:-1]]))
+    points = np.vstack([[0, 0], 300 * np.column_stack([np.cos(turns), np.sin(turns)])])
+    made = build(request(make_frame("cross", points, [[0, n] for n in range(1, 5)])))
+    place = next(p for p in made.placements if p.role == "half_a" and p.at == (0.0, 0.0))
+    kind = next(one for one in made.joints if one.name == place.joint)
+    # A joint of which no more than the pieces of two keys is looked at.
+    two = [
+        replace(p, at=(0.0, 0.0), turn=p.turn + turn, joint="")
+        for turn in (0.0, 179.8)
+        for p in kind.pieces
+        if p.role != "cap"
+    ]
+    joint = replace(kind, name="", keys=(0, 2), pieces=tuple(two))
+    for turn in (0.0, 40.0):
+        standing = [replace(p, turn=p.turn + turn) for p in joint.pieces]
+        for placements in (standing, standing[::-1]):
+            (site,) = stand(replace(made, joints=(joint,), placements=tuple(placements))).sites
+            assert site.origin.turn == pytest.approx(turn, abs=1e-6)
 
 
 def test_a_joint_turned_over_has_the_same_connectors_turned_over():
@@ -402,3 +444,17 @@ def test_edges_of_nearly_one_length_are_as_long_when_the_kit_is_made_again():
         (frame.lengths.min() + frame.lengths.max()) / 2, abs=1e-6
     )
     assert same(kit).good
+
+
+def test_a_readme_says_which_half_a_part_is_where_it_is_both():
+    # A joint with two keys, the second turned over: half A of one is the part half B of the other.
+    made = dozen()
+    first = made.joints[0]
+    pieces = [p for p in first.pieces if p.role not in ("half_a", "half_b")]
+    one, other = sorted(p.part for p in first.pieces if p.role in ("half_a", "half_b"))
+    for turn, parts in ((0.0, (one, other)), (90.0, (other, one))):
+        for role, part in zip(("half_a", "half_b"), parts, strict=True):
+            pieces.append(Placement(part, (0.0, 0.0), turn, role == "half_b", role, first.name))
+    text = readme(replace(made, joints=(replace(first, pieces=tuple(pieces)), *made.joints[1:])))
+    assert f"2 x `{one}` (half A at 0°, half B at 90°)" in text
+    assert f"2 x `{other}` (half A at 90°, half B at 0°)" in text

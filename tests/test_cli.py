@@ -418,7 +418,7 @@ EDITS = {
     "truncated": (lambda text: text[: len(text) // 2], "truncated or not JSON"),
     "emptied": (lambda _: "", "truncated or not JSON"),
     "another version": (
-        lambda text: text.replace('"version": 3', '"version": 7'),
+        lambda text: text.replace('"version": 4', '"version": 7'),
         "kit version 7: this scadgen",
     ),
     "another format": (lambda text: text.replace("scadgen-kit", "gear-kit"), "not a sound kit"),

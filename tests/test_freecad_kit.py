@@ -112,7 +112,7 @@ def piece(name, value):
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        (set_in("version", value=4), "kit version 4: this reads version 3; update it, or"),
+        (set_in("version", value=5), "kit version 5: this reads version 4; update it, or"),
         (set_in("format", value="kit"), "not a kit: format is not scadgen-kit"),
         (drop("ranges"), "not a sound kit: 'ranges' is missing; make it again"),
         (drop("parts"), "not a sound kit: 'parts' is missing"),

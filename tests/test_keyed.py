@@ -121,3 +121,34 @@ def test_a_joint_that_no_key_makes_lock_is_refused_with_its_vertex(monkeypatch):
     message = f"{where}: it locks: no; with other keys it is refused as well"
     with pytest.raises(JointError, match=message):
         proved_kit(wish)
+
+
+def test_the_vertex_of_a_refused_joint_is_one_of_its_own(monkeypatch):
+    # Three joints with different angles that have the same halves: these do not tell which it is.
+    middles = np.array([[0.0, 0.0], [200.0, -90.0], [390.0, -30.0]])
+    points, edges = middles.tolist(), [[0, 1], [1, 2]]
+    for start, turns in ((0, (115, 225)), (1, (270,)), (2, (75, 315))):
+        for arm in towards(*turns):
+            edges.append([start, len(points)])
+            points.append((middles[start] + arm).tolist())
+    wish = request("spiders", points, edges)
+    kit = build(wish)
+    assert len({p.part for one in kit.joints for p in one.pieces if p.role == "half_a"}) == 1
+
+    made = []
+
+    def never(kit, *_):
+        made.append(kit)
+        message = "it locks: no"
+        raise JointError(message, kit.joints[-1].name, "it locks: no")
+
+    monkeypatch.setattr("scadgen.plan.keyed.proved", never)
+    with pytest.raises(JointError) as caught:
+        proved_kit(wish)
+    found = re.search(r"vertex (\d) at .*, angles ([\d., ]+):", str(caught.value))
+    kit = made[-1]
+    at = kit.graph.vertices[int(found[1])] / kit.values["edge_length"]
+    (kind,) = {p.joint for p in kit.placements if p.role == "half_a" and np.allclose(p.at, at)}
+    assert kind == kit.joints[-1].name
+    gaps = np.diff([*kit.joints[-1].turns, 360.0])
+    assert [float(n) for n in found[2].split(",")] == pytest.approx(gaps, abs=0.1)

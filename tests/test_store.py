@@ -95,9 +95,9 @@ def test_a_truncated_kit_is_refused(share, tmp_path):
     assert str(tmp_path) in str(error.value)
 
 
-@pytest.mark.parametrize("version", [0, 1, 2, "3", None, 1.5, [3]])
+@pytest.mark.parametrize("version", [0, 1, 2, 3, "4", None, 1.5, [4]])
 def test_another_version_is_refused_by_its_number(version):
-    with pytest.raises(KitError, match=r"kit version .*: this scadgen .* reads version 3") as error:
+    with pytest.raises(KitError, match=r"kit version .*: this scadgen .* reads version 4") as error:
         loads(json.dumps(changed("version", to=version)))
     assert repr(version) in str(error.value)
 

@@ -126,7 +126,7 @@ def test_older_objects_are_brought_up_to_date_and_newer_ones_left_alone(session)
 
 def test_a_kit_of_a_newer_version_is_said_so_and_shapes_stay(session):
     found = session["old"]
-    assert found["kit"].startswith("kit version 7: this reads version 3; update it")
+    assert found["kit"].startswith("kit version 7: this reads version 4; update it")
     assert found["kept"]
     assert "Kit: Hexagons: kit version 7" in session["said"]
 

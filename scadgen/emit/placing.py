@@ -43,7 +43,7 @@ def placing(kit: Kit) -> str:
     -------
     text
         SVG: elements have their names and joints their numbers and letters, dark squares stand
-        where a peg goes in, and short stubs are loose connectors, named by joint and number.
+        where a peg goes in, and short stubs are loose connectors, by the end of their names.
         What lies the other way up has a star; a joint has one if its halves do.  A legend says so.
     """
     points = np.array([p.at for p in kit.placements]) * (_EDGE, -_EDGE)

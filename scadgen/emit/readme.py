@@ -98,7 +98,11 @@ def _counted(one: Joint, part: str, count: int) -> str:
     """How many of a part a joint has, as which half, and where from its key it lies turned over."""
     mine = [p for p in one.pieces if p.part == part]
     roles = {p.role for p in mine}
-    notes = [half for role, half in _HALVES.items() if roles == {role}]
+    notes = []
+    for role, half in _HALVES.items():
+        turns = ", ".join(f"{p.turn:.4g}°" for p in mine if p.role == role)
+        if turns and len(one.half_parts) > 1:
+            notes.append(half if len(roles) == 1 else f"{half} at {turns}")
     if over := [f"{p.turn:.4g}°" for p in mine if p.other_way_up]:
         notes.append(f"turned over at {', '.join(over)}")
     return f"{count} x `{part}`" + (f" ({', '.join(notes)})" if notes else "")

@@ -149,7 +149,7 @@ def choose_kinds(
 
 
 def _parts(kinds: Kinds, frame: Frame, same: Sameness) -> int:
-    """How many kinds of joints and of edge elements there are."""
+    """How many kinds of joints and, at most, of edge elements: shapes may have more in common."""
     # Sockets are those of a ring, which joints of one shape have alike.
     sockets = [one.shape for one in kinds.kinds]
     slots = Slots.of(kinds.symmetries)

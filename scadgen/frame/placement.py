@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-__all__ = ["KEYS", "PARTS", "Placement"]
+__all__ = ["ELEMENTS", "KEYS", "PARTS", "Placement"]
 
 #: Every printed part, in the order in which files list them.
 PARTS = ("basic", "one_sided", "two_sided", "connector", "half", "peg", "tube")
+
+#: Roles of edge elements.
+ELEMENTS = ("row", "cross")
 
 #: Key styles: the peg is part of the tube, or a piece of its own.
 KEYS = ("fixed", "loose")

@@ -2,7 +2,8 @@
 
 Joints have letters.  A connector is named by the first joint and edge that has it,
 ``connector_A1``, and so are the halves it may be split into: ``half_A1``, and ``half_A1_over`` for
-half B where that is another part.  Edge elements are numbered.
+half B where that is another part; either may be a half of other joints too.  Edge elements are
+numbered.
 """
 
 from __future__ import annotations
@@ -239,7 +240,7 @@ class _Build:
         """Its edge elements."""
         lengths = (self.same.lengths / self.unit).round(_DECIMALS)
         named = self.named
-        return edge_elements(self.kinds, self.frame.edges, lengths, named.keys, named.slots)
+        return edge_elements(self.kinds, self.frame.edges, lengths, named.sockets, named.slots)
 
     def limits(self) -> tuple[Range, ...]:
         """What the live parameters may be, so that all joints and elements are sound."""

@@ -25,7 +25,7 @@ from scadgen.joint.symmetry import Symmetry
 from scadgen.kit.pieces import Pieces
 from scadgen.solid.affine import Floats
 
-__all__ = ["Named", "alike_keys", "alike_pieces", "firsts"]
+__all__ = ["Named", "alike_pieces"]
 
 #: Decimals to which keys are compared, in sides.
 _DECIMALS = 9
@@ -38,15 +38,15 @@ _NEAR = 1e-4
 _Place = tuple[int, int]
 
 
-def firsts(values: Sequence[Hashable]) -> list[int]:
+def _firsts(values: Sequence[Hashable]) -> list[int]:
     """For each value, which is the first that is the same."""
     first: dict[Hashable, int] = {}
     return [first.setdefault(value, n) for n, value in enumerate(values)]
 
 
-def alike_keys(keys: Sequence[Key]) -> list[int]:
+def _alike_keys(keys: Sequence[Key]) -> list[int]:
     """For each key, which is the first that is the same but for rounding."""
-    return firsts(
+    return _firsts(
         [
             tuple(round(v, _DECIMALS) if isinstance(v, float) else v for v in astuple(key))
             for key in keys
@@ -119,22 +119,22 @@ class Named:
     symmetries: Sequence[Symmetry]
 
     @cached_property
-    def keys(self) -> list[int]:
+    def sockets(self) -> list[int]:
         """For each kind of joint, the first whose keys are the same."""
-        return alike_keys([one.key for one in self.pieces])
+        return _alike_keys([one.key for one in self.pieces])
 
     @cached_property
     def _connectors(self) -> dict[_Place, tuple[_Place, bool]]:
         """For each connector, the first that is the same part, and if it is turned over for it."""
         places = [(n, slot) for n, one in enumerate(self.symmetries) for slot in one.firsts]
         shapes = [self.pieces[n].connectors[slot] for n, slot in places]
-        found = alike_pieces(shapes, [self.keys[n] for n, _ in places], turned=True)
+        found = alike_pieces(shapes, [self.sockets[n] for n, _ in places], turned=True)
         return {
             place: (places[first], over) for place, (first, over) in zip(places, found, strict=True)
         }
 
     @property
-    def _firsts(self) -> list[_Place]:
+    def _different(self) -> list[_Place]:
         """The connectors that are different parts."""
         return list(dict.fromkeys(first for first, _ in self._connectors.values()))
 
@@ -157,7 +157,7 @@ class Named:
                 first, flip = self._connectors[number, own]
                 what[number, slot] = first[0] * count + first[1]
                 over[number, slot] = turned != flip
-        for number, slot in self._firsts:
+        for number, slot in self._different:
             mine = what == number * count + slot
             either[mine] = either[mine].any() or _is_even(self.pieces[number].connectors[slot])
         return Slots(what, over & ~either, either)
@@ -172,44 +172,46 @@ class Named:
         """The connectors that are different parts, by name."""
         return {
             _name("connector", number, slot): (one.key, one.connectors[slot])
-            for number, slot in self._firsts
+            for number, slot in self._different
             for one in [self.pieces[number]]
         }
 
     @cached_property
-    def _halves(self) -> tuple[dict[tuple[_Place, str], str], dict[str, tuple[Key, Piece]]]:
-        """What halves A and halves B turned over are called, and those that are different."""
-        own = [
-            ((number, slot), which, piece)
+    def _own_halves(self) -> dict[tuple[_Place, str], Piece]:
+        """Halves A, and halves B turned over, of the first of all slots that are alike."""
+        return {
+            ((number, slot), which): piece
             for number, one in enumerate(self.pieces)
             for slot in sorted({self.symmetries[number].alike(slot)[0] for slot in one.halves})
             for which, piece in zip(("", "_over"), one.halves[slot], strict=True)
-        ]
-        groups = [self.keys[number] for (number, _), _, _ in own]
-        found = alike_pieces([piece for _, _, piece in own], groups, turned=False)
-        names = [_name("half", *place) + which for place, which, _ in own]
-        called = {
-            (place, which): names[first]
-            for (place, which, _), (first, _) in zip(own, found, strict=True)
         }
-        parts = {names[n]: (self.pieces[own[n][0][0]].key, own[n][2]) for n, _ in found}
-        return called, parts
+
+    @cached_property
+    def _half_names(self) -> dict[tuple[_Place, str], str]:
+        """What they are called."""
+        groups = [self.sockets[number] for (number, _), _ in self._own_halves]
+        found = alike_pieces([*self._own_halves.values()], groups, turned=False)
+        names = [_name("half", *place) + which for place, which in self._own_halves]
+        return {own: names[n] for own, (n, _) in zip(self._own_halves, found, strict=True)}
 
     def half_names(self, number: int, slot: int) -> tuple[str, str]:
         """Names of half A and half B of a slot, the same where they are the same part."""
         first, over = self.symmetries[number].alike(slot)
-        names = self._halves[0][(number, first), ""], self._halves[0][(number, first), "_over"]
-        return names[::-1] if over else names
+        half_a, half_b = (self._half_names[(number, first), which] for which in ("", "_over"))
+        return (half_b, half_a) if over else (half_a, half_b)
 
     @property
     def halves(self) -> dict[str, tuple[Key, Piece]]:
         """The halves that are different parts, by name."""
-        return self._halves[1]
+        found: dict[str, tuple[Key, Piece]] = {}
+        for own, name in self._half_names.items():
+            found.setdefault(name, (self.pieces[own[0][0]].key, self._own_halves[own]))
+        return found
 
     @cached_property
     def _pegs(self) -> list[int]:
         """For each kind of joint, the first whose pegs start in the same place."""
-        return firsts([round(one.key.pad, _DECIMALS) for one in self.pieces])
+        return _firsts([round(one.key.pad, _DECIMALS) for one in self.pieces])
 
     def peg(self, number: int) -> str:
         """Name of a joint's peg."""

@@ -233,7 +233,10 @@ def _tried(made: Joint, style: str, extra: int, keys: Sequence[int], *, bored: b
 
 
 def _turned_over(first: Surface, second: Surface) -> tuple[Surface, Surface]:
-    """Half A, and half B turned over, which is half A where they are alike."""
+    """Half A, and half B turned over, which is half A where they are alike.
+
+    What draws back is then the same: the split, and the walls that both have.
+    """
     over = half_turn(second)
     return first, over if first.match(over) is None else first
 

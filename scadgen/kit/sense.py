@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from scadgen.frame.layout import bill, joint
-from scadgen.frame.placement import PARTS
+from scadgen.frame.placement import ELEMENTS, PARTS
 from scadgen.kit.model import Joint, Kit
 from scadgen.kit.request import VALENCE
 from scadgen.solid.mesh import volume
@@ -49,15 +49,29 @@ def _check_names(kit: Kit) -> None:
         if set(kit.parts) != set(PARTS):
             msg = f"parts must be {', '.join(PARTS)}"
             raise ValueError(msg)
-    names = {one.name for one in kit.joints}
-    if unknown := {p.joint for p in kit.placements if p.role not in ("row", "cross")} - names:
-        msg = f"placements: a piece of joint {min(unknown)!r}, which is not there"
-        raise ValueError(msg)
+    _check_pieces(kit)
     used = {p.part for p in kit.placements}
     used.update(*({p.part for p in one.pieces} | {*one.connectors} for one in kit.joints))
     if missing := used - set(kit.parts):
         msg = f"part {min(missing)}: is needed and is not there"
         raise ValueError(msg)
+
+
+def _check_pieces(kit: Kit) -> None:
+    """Refuse placements that are not pieces of the kind of joint that they say they are of."""
+    pieces = {one.name: {(p.role, p.part) for p in one.pieces} for one in kit.joints}
+    if len(pieces) < len(kit.joints):
+        names = [one.name for one in kit.joints]
+        msg = f"joints: two are called {next(n for n in names if names.count(n) > 1)!r}"
+        raise ValueError(msg)
+    for place in kit.placements:
+        if place.role in ELEMENTS:
+            good = not place.joint
+        else:
+            good = (place.role, place.part) in pieces.get(place.joint, ())
+        if not good:
+            msg = f"placements: {place.part} as {place.role} is no piece of joint {place.joint!r}"
+            raise ValueError(msg)
 
 
 def _check_joint(one: Joint) -> None:

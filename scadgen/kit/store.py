@@ -32,7 +32,7 @@ from scadgen.solid.mesh import edge_faults
 __all__ = ["FORMAT", "VERSION", "dumps", "load", "loads", "summary"]
 
 FORMAT = "scadgen-kit"
-VERSION = 3
+VERSION = 4
 
 
 def dumps(kit: Kit) -> str:

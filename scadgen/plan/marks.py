@@ -108,7 +108,7 @@ _MEANINGS: tuple[tuple[str, Callable[[Floats, float], str], str], ...] = (
     ("below", lambda at, size: rise_mark(at, -1, size), "goes up, from below"),
     ("along", _across, "goes along the frame"),
     ("joint", lambda at, size: joint_mark(at, 1, "", size, busy=True), "joint with its number"),
-    ("kind", _written("A"), "kind of joint, as in connector_A1"),
+    ("kind", _written("A"), "kind of joint, by its letter"),
     ("other", _written("*"), "lies turned over, half B as printed"),
 )
 

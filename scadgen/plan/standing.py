@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree
 
 from scadgen.errors import InputError, InvariantError
 from scadgen.frame.layout import bill
-from scadgen.frame.placement import Placement
+from scadgen.frame.placement import ELEMENTS, Placement
 from scadgen.kit.model import Joint, Kit
 from scadgen.solid.affine import Floats
 
@@ -23,8 +23,8 @@ __all__ = ["Origin", "Site", "Standing", "stand"]
 #: Directions as near as this are the same, in degrees; edges are at least 25 degrees apart.
 _ANGLE = 0.5
 
-#: Roles of edge elements.
-_ELEMENTS = ("row", "cross")
+#: Decimals of degrees by which joints fit.
+_DECIMALS = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +113,7 @@ class Standing:
     @cached_property
     def elements(self) -> frozenset[int]:
         """Numbers of the edge elements."""
-        return frozenset(n for n, p in enumerate(self.kit.placements) if p.role in _ELEMENTS)
+        return frozenset(n for n, p in enumerate(self.kit.placements) if p.role in ELEMENTS)
 
     @cached_property
     def sites_of(self) -> list[list[int]]:
@@ -176,7 +176,7 @@ def stand(kit: Kit) -> Standing:
     InputError
         It is the kit of a single joint, without a frame.
     InvariantError
-        A joint of the frame is none of the kit's kinds.
+        A joint of the frame is not as the kind that its pieces are of.
     """
     if not kit.placements:
         msg = f"{kit.frame}: a kit without a frame has nothing to plan; name one of a frame"
@@ -203,14 +203,14 @@ class _End:
 
     @property
     def is_element(self) -> bool:
-        return self.placement.role in _ELEMENTS
+        return self.placement.role in ELEMENTS
 
 
 def _ends(kit: Kit, placement: Placement) -> Iterator[tuple[Floats, float]]:
     """Where a part meets joints, and the direction that it has there."""
     at, turn = np.array(placement.at), placement.turn
     yield at, turn
-    if placement.role in _ELEMENTS:
+    if placement.role in ELEMENTS:
         ahead = np.array([math.cos(math.radians(turn)), math.sin(math.radians(turn))])
         yield at + _length(kit, placement) * ahead, turn + 180.0
 
@@ -222,7 +222,8 @@ def _length(kit: Kit, placement: Placement) -> float:
 def _site(
     kit: Kit, kinds: Mapping[str, Joint], at: tuple[float, float], ends: Sequence[_End]
 ) -> Site:
-    """The joint that these ends make."""
+    """The joint that these ends make: as they fit best, for any of its keys may be the first."""
+    fits = []
     for end in ends:
         if end.placement.role == "half_a":
             kind, over = kinds[end.placement.joint], end.placement.flip
@@ -230,18 +231,25 @@ def _site(
             origin = Origin(at, (end.turn - off) % 360, over)
             found = _matched(kit, kind, origin, ends)
             if found is not None:
-                return Site(kind, origin, *found)
-    msg = f"a joint at {at} is as its kind"
-    raise InvariantError(msg)
+                fits.append((found[0], Site(kind, origin, *found[1:])))
+    if not fits:
+        letters = {end.placement.joint for end in ends} - {""}
+        msg = f"the joint at {at} is as its kind{''.join(f' {letter}' for letter in letters)}"
+        raise InvariantError(msg)
+    return min(fits, key=lambda fit: fit[0])[1]
 
 
 def _matched(
     kit: Kit, kind: Joint, origin: Origin, ends: Sequence[_End]
-) -> tuple[dict[int, int], dict[int, int]] | None:
-    """The part of each piece and of each key's tube, if these ends are a joint of a kind."""
-    left = list(ends)
+) -> tuple[float, dict[int, int], dict[int, int]] | None:
+    """How far these ends are off a joint of a kind, and the part of each piece and key's tube.
+
+    None if they are not such a joint.
+    """
+    left, worst = list(ends), 0.0
 
     def take(piece: Placement, role: str | None) -> int | None:
+        nonlocal worst
         turn, wanted = origin.direction(piece.turn), (role, piece.part, piece.flip != origin.over)
         for end in left:
             place = end.placement
@@ -251,6 +259,7 @@ def _matched(
             )
             if abs(off) < _ANGLE and fits:
                 left.remove(end)
+                worst = max(worst, round(abs(off), _DECIMALS))
                 return end.part
         return None
 
@@ -268,4 +277,4 @@ def _matched(
             part = take(piece, None)
             if part is not None:
                 tubes[number] = part
-    return None if left else (parts, tubes)
+    return None if left else (worst, parts, tubes)

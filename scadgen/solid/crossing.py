@@ -271,7 +271,7 @@ def crossing_faces(points: Floats, triangles: Ints, *, touch: float | None = Non
     points
         ``(v, 3) float``, mm.
     triangles
-        ``(m, 3) int``.
+        ``(m, 3) int``, three different ones each.
     touch
         Distance in mm up to which faces count as touching; by default `TOUCH` times
         the diagonal of the mesh's box.

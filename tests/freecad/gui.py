@@ -501,10 +501,10 @@ def modal(kind):
 def kits_are_opened_or_refused():
     doc = App.newDocument("Opened")
     newer = json.loads(PLACES["kit"].read_text())
-    newer["version"] = 4
+    newer["version"] = 5
     for name, text, words in (
         ("broken.json", PLACES["kit"].read_text()[:5000], "not a sound kit: truncated or not JSON"),
-        ("newer.json", json.dumps(newer), "kit version 4: this reads version 3; update it"),
+        ("newer.json", json.dumps(newer), "kit version 5: this reads version 4; update it"),
         ("kit.json", PLACES["kit"].read_text(), ""),
     ):
         (PLACES["folder"] / name).write_text(text)

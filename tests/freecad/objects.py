@@ -147,7 +147,7 @@ def old():
     doc.Half.ScadgenVersion = 0
     doc.Peg.removeProperty("BomName")
     doc.Peg.ScadgenVersion = 99
-    doc.Kit.Data = doc.Kit.Data.replace('"version": 3', '"version": 7', 1)
+    doc.Kit.Data = doc.Kit.Data.replace('"version": 4', '"version": 7', 1)
     doc.saveAs(saved("old"))
     App.closeDocument(doc.Name)
     doc = App.openDocument(saved("old"))

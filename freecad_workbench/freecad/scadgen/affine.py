@@ -20,7 +20,7 @@ from freecad.scadgen.sense import nonsense
 __all__ = ["KitData", "KitError", "Solid", "parse_kit", "read_kit"]
 
 #: Format and version of ``kit.json`` that is read here.
-_FORMAT, _VERSION = "scadgen-kit", 3
+_FORMAT, _VERSION = "scadgen-kit", 4
 
 #: What rounding of decimal input may take a value past its bound, in mm.
 _SLACK = 1e-9

@@ -145,7 +145,7 @@ def _kit() -> str:
     ]
     kit = {
         "format": "scadgen-kit",
-        "version": 3,
+        "version": 4,
         "frame": "square",
         "key": "fixed",
         "detail": "boxes",
