@@ -5,23 +5,17 @@ See ``docs/geometry.md``, step 2.  Lengths are in units of the side, angles in r
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from functools import cached_property, lru_cache
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.optimize import brentq
 
+from scadgen.joint.arms import Arms, Vectors, derivatives, way_of
 from scadgen.joint.weave import Weave
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.vectors import cross
 
 __all__ = ["SiteCurve", "distances", "nearest_curve", "slopes"]
-
-#: How gently an arm that followed the ring begins to weave, in sides.
-_GENTLE = 0.25
 
 #: Newton steps to the nearest point; quadratic from a sample's distance, so 1e-12 after 4, where
 #: the last one measures.
@@ -36,41 +30,6 @@ _CHUNK = 2048
 #: Between two samples a curve is looked at so many times for how it bends, and may bend by this
 #: much more than is found.
 _FINER, _SHARPER = 4, 1.25
-
-
-class _Vectors(NamedTuple):
-    """Vectors in space: their part in plan as x + iy, so that turning is a product, and z."""
-
-    plan: NDArray[np.complex128]
-    height: Floats
-
-    def dot(self, other: _Vectors) -> Floats:
-        """Scalar products."""
-        return np.asarray((self.plan.conj() * other.plan).real + self.height * other.height)
-
-    def stacked(self) -> Floats:
-        """Shape ``(..., 3)``."""
-        return np.stack([self.plan.real, self.plan.imag, self.height], axis=-1)
-
-    def rows(self, some: Ints) -> _Vectors:
-        """Some of them."""
-        return _Vectors(self.plan.take(some), self.height.take(some))
-
-
-class _Arms(NamedTuple):
-    """Of one curve, or of each of several points: which way it leaves, and its arms.
-
-    Their last axis is of what comes before the edge and what comes after it.
-    """
-
-    angle: Floats
-    plain: Floats
-    reach: Floats
-    rate: Floats
-
-    def of(self, curve: Ints, after: Ints) -> _Arms:
-        """One arm a point, of these of several curves."""
-        return _Arms(self.angle[curve], *(each[curve, after] for each in self[1:]))
 
 
 class SiteCurve:
@@ -96,8 +55,8 @@ class SiteCurve:
         gaps = 2 * weave.ring_ratio * np.array([before, after])
         woven = np.minimum(gaps, gaps.max() if weave.stretch is None else weave.stretch)
         plain, reach = (gaps - woven) / 2, weave.span * woven
-        rate = np.array([_way_of(*pair) for pair in zip(reach, plain, strict=True)])
-        self.arms = _Arms(np.array(angle), plain, reach, rate)
+        rate = np.array([way_of(*pair) for pair in zip(reach, plain, strict=True)])
+        self.arms = Arms(np.array(angle), plain, reach, rate)
         # Sides that differ meet at an angle, which no step towards a nearest point may cross.
         self.is_smooth = bool(np.allclose([reach[0], plain[0]], [reach[1], plain[1]], 0, 1e-9))
         if not self.is_smooth:
@@ -264,53 +223,29 @@ class _Curves:
     def __init__(self, curves: Sequence[SiteCurve]) -> None:
         self._weave = curves[0].weave
         arms = zip(*(curve.arms for curve in curves), strict=True)
-        self._arms = _Arms(*(np.stack(each) for each in arms))
+        self._arms = Arms(*(np.stack(each) for each in arms))
         self._spacing = np.array([curve.spacing for curve in curves])
         self._bent = np.array([not curve.is_smooth for curve in curves])
 
     @cached_property
-    def _corners(self) -> tuple[_Vectors, _Vectors]:
+    def _corners(self) -> tuple[Vectors, Vectors]:
         """Where their arms meet, and which way those after it go on."""
         count = len(self._spacing)
         return self.derivatives(np.arange(count), np.zeros(count))[:2]
 
-    def derivatives(self, which: Ints, u: Floats) -> tuple[_Vectors, _Vectors, _Vectors]:
-        """Position, first and second derivative by ``u``.
+    def derivatives(self, which: Ints, u: Floats) -> tuple[Vectors, Vectors, Vectors]:
+        """Position, first and second derivative by ``u``."""
+        return derivatives(self._weave, self._arms.of(which, (u >= 0).astype(np.intp)), u)
 
-        The woven arm at its own length, carried along the ring by what it starts late.
-        """
-        angle, plain, reach, rate = self._arms.of(which, (u >= 0).astype(np.intp))
-        way = u * rate
-        length, slope, curve = _delayed(way, plain)
-        place, first, second = _woven(self._weave, length, reach)
-        radius = self._weave.ring_ratio
-        carried = np.exp(1j * (angle + (way - length) / radius))
-        spin = 1j * (1 - slope) / radius
-        along, across = slope * rate * carried, spin * rate * carried
-        return (
-            _Vectors(carried * place.plan, place.height),
-            _Vectors(across * place.plan + along * first.plan, slope * rate * first.height),
-            _Vectors(
-                carried
-                * rate**2
-                * (
-                    (spin**2 - 1j * curve / radius) * place.plan
-                    + (2 * spin * slope + curve) * first.plan
-                    + slope**2 * second.plan
-                ),
-                rate**2 * (curve * first.height + slope**2 * second.height),
-            ),
-        )
-
-    def away(self, which: Ints, points: Floats, u: Floats) -> _Vectors:
+    def away(self, which: Ints, points: Floats, u: Floats) -> Vectors:
         """The way to points from the nearest ones of their curves, which are near ``u``."""
-        target = _Vectors(points[:, 0] + 1j * points[:, 1], points[:, 2])
+        target = Vectors(points[:, 0] + 1j * points[:, 1], points[:, 2])
         u, (low, high) = u.copy(), self._around(which, target, u)
-        away = _Vectors(np.empty(len(u), dtype=np.complex128), np.empty(len(u)))
+        away = Vectors(np.empty(len(u), dtype=np.complex128), np.empty(len(u)))
         left = np.arange(len(u))
         for _ in range(_STEPS):
             place, first, second = self.derivatives(which[left], u[left])
-            off = _less(place, target.rows(left))
+            off = place.less(target.rows(left))
             away.plan[left], away.height[left] = -off.plan, -off.height
             slope, curvature = off.dot(first), first.dot(first) + off.dot(second)
             low[left] = np.where(slope < 0, u[left], low[left])
@@ -326,14 +261,14 @@ class _Curves:
                 break
         return away
 
-    def _around(self, which: Ints, points: _Vectors, u: Floats) -> tuple[Floats, Floats]:
+    def _around(self, which: Ints, points: Vectors, u: Floats) -> tuple[Floats, Floats]:
         """Between what the nearest points are sought."""
         spacing = self._spacing[which]
         low, high = np.maximum(u - spacing, -1.0), np.minimum(u + spacing, 1.0)
         bent = self._bent[which]
         if bent.any():
             start, way = (each.rows(which) for each in self._corners)
-            ahead = (u > 0) | ((u == 0) & (_less(start, points).dot(way) < 0))
+            ahead = (u > 0) | ((u == 0) & (start.less(points).dot(way) < 0))
             low = np.where(bent & ahead, np.maximum(low, 0.0), low)
             high = np.where(bent & ~ahead, np.minimum(high, 0.0), high)
         return low, high
@@ -343,59 +278,3 @@ class _Curves:
 def _together(curves: tuple[SiteCurve, ...]) -> _Curves:
     """The same curves, which are asked for again and again."""
     return _Curves(curves)
-
-
-def _woven(weave: Weave, length: Floats, reach: Floats) -> tuple[_Vectors, _Vectors, _Vectors]:
-    """An arm that weaves from its edge on: place and derivatives by its length in plan."""
-    bend = weave.bend / weave.ring_ratio
-    half = length * bend / 2
-    # (sin t)/b by way of sinc, so that a straight curve (b = 0) is no special case.
-    turned = np.exp(1j * half)
-    wave = math.pi * weave.periods / reach
-    phase = wave * length
-    rise, fall = weave.amplitude * np.sin(phase), weave.amplitude * np.cos(phase)
-    return (
-        _Vectors(weave.ring_ratio + 1j * length * np.sinc(half / np.pi) * turned, rise),
-        _Vectors(1j * turned**2, wave * fall),
-        _Vectors(-bend * turned**2, -(wave**2) * rise),
-    )
-
-
-def _less(first: _Vectors, second: _Vectors) -> _Vectors:
-    """Differences."""
-    return _Vectors(first.plan - second.plan, first.height - second.height)
-
-
-def _delayed(way: Floats, plain: Floats) -> tuple[Floats, Floats, Floats]:
-    """A length that starts to grow after a plain one, smoothly and oddly, and its derivatives.
-
-    It is ``way`` less ``plain`` further out, and nearly 0 within.
-    """
-    if not np.any(plain):
-        return way, np.ones_like(way), np.zeros_like(way)
-    (after, rise), (before, fall) = (
-        _soft_size((way + sign * plain) / _GENTLE) for sign in (1.0, -1.0)
-    )
-    return (
-        way - _GENTLE / 2 * (after - before),
-        1 - (rise - fall) / 2,
-        (rise**2 - fall**2) / (2 * _GENTLE),
-    )
-
-
-def _soft_size(x: Floats) -> tuple[Floats, Floats]:
-    """Log 2 cosh x, which is nearly its size, and its derivative tanh x."""
-    size = np.abs(x)
-    small = np.exp(-2 * size)
-    return size + np.log1p(small), np.sign(x) * (1 - small) / (1 + small)
-
-
-def _way_of(length: float, plain: float) -> float:
-    """The way at which a delayed length is this."""
-    if not plain:
-        return length
-
-    def short(way: float) -> float:
-        return float(_delayed(np.asarray(way), np.asarray(plain))[0]) - length
-
-    return float(brentq(short, 0.0, length + plain + _GENTLE))
