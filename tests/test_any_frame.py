@@ -19,13 +19,15 @@ from scadgen.emit.readme import readme
 from scadgen.emit.scad import scad
 from scadgen.emit.scad_parameters import views
 from scadgen.errors import GeometryError, InputError, KitError
+from scadgen.frame.alike import Ends
 from scadgen.frame.catalogue import named
 from scadgen.frame.graph import make_frame
 from scadgen.frame.placement import Placement
+from scadgen.joint.symmetry import Symmetry
 from scadgen.joint.weave import any_joint
 from scadgen.kit.bill import lines
 from scadgen.kit.build import Request, build
-from scadgen.kit.named import alike_pieces
+from scadgen.kit.named import Named, alike_pieces
 from scadgen.kit.pieces import best_pieces
 from scadgen.kit.store import dumps, loads, summary
 from scadgen.plan.motion import motion_of
@@ -217,6 +219,38 @@ def test_a_joint_stands_as_it_fits_best_however_its_pieces_are_listed():
         for placements in (standing, standing[::-1]):
             (site,) = stand(replace(made, joints=(joint,), placements=tuple(placements))).sites
             assert site.origin.turn == pytest.approx(turn, abs=1e-6)
+
+
+def test_connectors_between_the_same_walls_are_one_part_in_joints_of_any_kind():
+    # All with their key at the first edge.  The edge opposite is between gaps of 90 and 100
+    # degrees, the other way around in the third joint and of 90 twice in the last: walls there
+    # know nothing of the key or of the other gaps.  So do walls beside keys in gaps as wide as
+    # these: all first connectors are one.  The third joint is the first one turned over.
+    joints = (95, 90, 100, 75), (75, 90, 100, 95), (75, 100, 90, 95), (75, 90, 90, 105)
+    weave = any_joint(math.radians(75))
+    rings = [np.radians(np.cumsum([0, *gaps[:-1]])) for gaps in joints]
+    made = [best_pieces(ring, weave, "loose", "draft", [0], bored=False) for ring in rings]
+    found = Named(made, [Symmetry(4, 4, None)] * 4)
+    opposite = [found.connector(number, 2) for number in range(4)]
+    assert opposite[:2] == [("connector_A3", False)] * 2
+    assert opposite[2:] == [("connector_A3", True), ("connector_D3", False)]
+    assert {found.connector(number, 0)[0] for number in range(4)} == {"connector_A1"}
+    assert [found.connector(2, slot) for slot in (1, 3)] == [
+        ("connector_A4", True),
+        ("connector_A2", True),
+    ]
+    # Only the one between equal gaps is itself turned over.
+    assert np.argwhere(found.slots.either).tolist() == [[3, 2]]
+    # An edge that ends in them is one element too, whichever kind of joint it is at.
+    same = found.slots.what[[0, 1, 2, 3], 2]
+    over = found.slots.over[[0, 1, 2, 3], 2]
+    ends = Ends(
+        np.column_stack([same, np.full(4, 99)]),
+        np.column_stack([over, np.zeros(4, dtype=bool)]),
+        np.tile([False, True], (4, 1)),
+        np.ones(4),
+    )
+    assert ends.alike().which.tolist() == [0, 0, 0, 1]
 
 
 def test_a_joint_turned_over_has_the_same_connectors_turned_over():
