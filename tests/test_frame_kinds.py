@@ -135,14 +135,17 @@ def element_count(frame, kinds):
 #: turns and shifts of the tiling carry onto each other.
 #:   4.8.8, 3.12.12: edges of the small polygon, and those between two of them.
 #:   4.6.12: between square and hexagon, square and dodecagon, hexagon and dodecagon.
-#:   3.3.4.3.4: between two triangles; between triangle and square there are as many as two a
-#:     vertex, one to the left of the square's corner and one to the right.
+#:   3.3.4.3.4: between two triangles; between triangle and square there are two a vertex, one to
+#:     the left of the square's corner and one to the right, each of which is the other turned over:
+#:     of both the other end is a key's, and the wall in the square nearer to a key than to it.
 #:   3.3.3.4.4: between squares, between square and triangle, and two slants between triangles.
 #:   3.3.3.3.6: around hexagons; between triangles those that a half turn reverses, and the others.
 #: Where a joint would look the same after less, its key tells its edges apart, but for those that
 #: are as far from it on either side: a half turn about the key's edge swaps them.
 #:   square, rectangular, rhombic, triangular: every joint is turned alike, so that one for each
-#:     direction of an edge; across the key's edge an edge goes between such a pair.
+#:     direction of an edge; across the key's edge an edge goes between such a pair.  A triangular
+#:     joint's two keys are next to each other, and each is the other turned over about the line
+#:     between them, and so are the edges that go on behind them: two directions have one element.
 #:   hexagonal: the two edges beside the key are such a pair, so that there is one with keys at
 #:     both ends, and one with none.
 #:   3.6.3.6: of four slots each meets the next one, around.
@@ -154,13 +157,13 @@ TILINGS = {
     "square": (1, 1, 2),
     "rectangular": (1, 1, 2),
     "rhombic": (1, 1, 2),
-    "triangular": (2, 1, 3),
+    "triangular": (2, 1, 2),
     "ring": (1, 1, 1),
     "3.6.3.6": (1, 1, 4),
     "4.8.8": (1, 1, 2),
     "3.12.12": (1, 1, 2),
     "4.6.12": (1, 2, 3),
-    "3.3.4.3.4": (2, 1, 3),
+    "3.3.4.3.4": (2, 1, 2),
     "3.3.3.4.4": (2, 1, 4),
     "3.3.3.3.6": (2, 1, 3),
     "3.4.6.4": (1, 2, 6),

@@ -17,6 +17,9 @@ from scadgen.solid.vectors import cross
 
 __all__ = ["SiteCurve", "distances", "nearest_curve", "slopes"]
 
+#: Decimals of lengths along which arms follow the ring, in sides: rounding is no such length.
+_DECIMALS = 12
+
 #: Newton steps to the nearest point; quadratic from a sample's distance, so 1e-12 after 4, where
 #: the last one measures.
 _STEPS = 5
@@ -54,7 +57,7 @@ class SiteCurve:
         self.weave = weave
         gaps = 2 * weave.ring_ratio * np.array([before, after])
         woven = np.minimum(gaps, gaps.max() if weave.stretch is None else weave.stretch)
-        plain, reach = (gaps - woven) / 2, weave.span * woven
+        plain, reach = ((gaps - woven) / 2).round(_DECIMALS), weave.span * woven
         rate = np.array([way_of(*pair) for pair in zip(reach, plain, strict=True)])
         self.arms = Arms(np.array(angle), plain, reach, rate)
         # Sides that differ meet at an angle, which no step towards a nearest point may cross.

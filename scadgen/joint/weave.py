@@ -161,7 +161,8 @@ def any_joint(least_gap: float) -> Weave:
     """The weave of joints whose gaps differ; see ``docs/geometry.md``, "Any joint".
 
     The ring is so wide that the smallest gap, or 90 degrees, is as long as the stretch that
-    arms weave in.  So in one joint all walls are nearly the same, whatever their gaps: they lock
+    arms weave in, and a hundredth more at most: the stretch grows with it, so that such a gap is
+    woven whole.  So in one joint all walls are nearly the same, whatever their gaps: they lock
     alike, and open alike for a piece that goes up or down and turns a little.
 
     Parameters
@@ -183,6 +184,7 @@ def any_joint(least_gap: float) -> Weave:
         raise InputError(msg)
     rows = (np.interp(degrees, _ANY[:, 0], column) for column in _ANY[:, 1:].T)
     span, amplitude, curl, periods, stretch = (round(float(value), 3) for value in rows)
-    ring = math.ceil(100 * stretch / min(least_gap, math.radians(_ANY[-1, 0])) - 1e-6) / 100
+    woven = min(least_gap, math.radians(_ANY[-1, 0]))
+    ring = math.ceil(100 * stretch / woven - 1e-6) / 100
     bend = max(0.0, round(1 - curl * ring, 3))
-    return Weave(ring, span, amplitude, bend, periods, stretch=stretch, name="any")
+    return Weave(ring, span, amplitude, bend, periods, stretch=ring * woven, name="any")

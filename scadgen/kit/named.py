@@ -145,7 +145,7 @@ class Named:
         Raises
         ------
         InvariantError
-            What is alike by angles and keys is not the same to the last digit.
+            What is alike by angles and keys is not one shape.
         """
         slots = Slots.of(self.symmetries)
         count = slots.most
@@ -238,7 +238,6 @@ def _check_alike(pieces: Pieces, symmetry: Symmetry) -> None:
     for slot, piece in enumerate(pieces.connectors):
         first, over = symmetry.alike(slot)
         other = pieces.connectors[first]
-        same = (other.turned_over() if over else other).surface.points
-        if not np.array_equal(same, piece.surface.points):
+        if piece is not other and not piece.is_like(other.turned_over() if over else other):
             msg = f"connectors of edges that are alike are the same: {slot} and {first} are not"
             raise InvariantError(msg)
