@@ -8,7 +8,8 @@ several ways, it takes the one in which its edges are like most inner ones.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Collection, Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,7 +19,7 @@ from scipy.sparse.csgraph import connected_components
 
 from scadgen.frame.congruence import JointClass
 from scadgen.frame.graph import Frame
-from scadgen.frame.keys import ANGLE, steps_of
+from scadgen.frame.keys import ANGLE
 from scadgen.frame.sameness import Sameness
 from scadgen.joint.symmetry import Symmetry
 from scadgen.solid.affine import Floats, Ints
@@ -274,26 +275,35 @@ class _Choice:
         usual = {
             pair
             for edge, ends in enumerate(self._frame.edges.tolist())
-            if set(ends) <= set(chosen)
+            if all(vertex in chosen for vertex in ends)
             for pair in itertools.permutations(
                 self._end(edge, end, chosen[v]) for end, v in enumerate(ends)
             )
         }
-        turns = {self._turned(v, host) for v, host in chosen.items()}
+        turns = self._turns(chosen)
         for vertex in self._outwards(chosen):
             chosen[vertex] = max(
                 options[vertex],
                 key=lambda host: (
                     self._likeness(vertex, host, chosen, usual),
-                    self._turned(vertex, host) in turns,
+                    self._is_usual(vertex, host, turns),
                 ),
             )
         return [chosen[vertex] for vertex in range(len(options))]
 
-    def _turned(self, vertex: int, host: _Host) -> tuple[int, bool, int]:
-        """A host, whether it is turned over at a vertex, and how it is turned."""
+    def _turns(self, chosen: Mapping[int, _Host]) -> dict[tuple[int, bool], Floats]:
+        """How the chosen hosts are turned, by their joint and whether they are turned over."""
+        found = defaultdict(set)
+        for vertex, host in chosen.items():
+            stood = self.standing(vertex, host)
+            found[host.joint, stood.over].add(stood.turn)
+        return {which: np.array(sorted(turns)) for which, turns in found.items()}
+
+    def _is_usual(self, vertex: int, host: _Host, turns: Mapping[tuple[int, bool], Floats]) -> bool:
+        """Whether a host would be turned at a vertex as one of others is."""
         stood = self.standing(vertex, host)
-        return host.joint, stood.over, int(steps_of(stood.turn))
+        off = turns.get((host.joint, stood.over), np.empty(0)) - stood.turn
+        return bool((np.abs((off + np.pi) % (2 * np.pi) - np.pi) < ANGLE).any())
 
     def _end(self, edge: int, end: int, host: _Host) -> tuple[int, bool, int]:
         """Joint, whether it is turned over, and slot of an edge's end in a host."""

@@ -30,15 +30,19 @@ from scipy.sparse.csgraph import (
 )
 
 from scadgen.frame.graph import Frame
+from scadgen.frame.sameness import group_values
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["ANGLE", "Places", "Refused", "choose_keys", "steps_of"]
+__all__ = ["ANGLE", "Places", "Refused", "choose_keys"]
 
 #: Directions as near as this are the same, in radians; twice what sameness allows a joint.
 ANGLE = 2e-4
 
 #: Choices for alike joints that are looked at, and how many edges they may have in all.
 _CHOICES, _EDGES = 5000, 2_000_000
+
+#: Directions of edges each of which is tried as the first that has none.
+_DIRECTIONS = 12
 
 #: Keys that alike joints may have: next to each other, for so they are known to lock.
 _KEYS = 4
@@ -129,15 +133,24 @@ def choose_keys(places: Places, parts: Callable[[Keys], int]) -> Keys:
         alike = _alike(places, group, 1, parts)
         if alike is not None:
             return alike
-    few = _Few(places).chosen()
+    few = min((_Few(places, whole).chosen() for whole in _forests(places.frame)), key=parts)
     several = _alike(places, places.shape_of, _KEYS, parts)
     return few if several is None or parts(few) <= parts(several) else several
 
 
-def steps_of(angles: Floats | float, turn: float = 2 * math.pi) -> Ints:
-    """Angles in whole steps of a turn, coarse enough that those of alike joints are the same."""
-    steps = np.round(np.asarray(angles) % turn / (4 * ANGLE)).astype(np.int64)
-    return np.asarray(steps % round(turn / (4 * ANGLE)))
+def _same_angles(angles: Floats, turn: float = 2 * math.pi) -> Ints:
+    """A number for each of some angles, the same where they are: how all are turned is no matter.
+
+    Numbers ascend from an angle of 0 on, around a turn.
+    """
+    within = angles % turn
+    ascending = np.sort(within)
+    # No group reaches across the widest gap.
+    widest = int(np.diff(ascending, append=ascending[:1] + turn).argmax())
+    start = ascending[(widest + 1) % len(ascending)]
+    middles, group = group_values((within - start) % turn, ANGLE)
+    place = np.argsort(np.argsort((middles + start + ANGLE) % turn))
+    return np.asarray(place[group])
 
 
 def _turned_alike(places: Places) -> Iterator[Ints]:
@@ -145,7 +158,7 @@ def _turned_alike(places: Places) -> Iterator[Ints]:
 
     Then the same for those that are turned alike as well.
     """
-    columns = [places.shape_of, places.over, steps_of(places.turn)]
+    columns = [places.shape_of, places.over, _same_angles(places.turn)]
     for count in (2, 3):
         alike = np.column_stack(columns[:count])
         yield np.asarray(np.unique(alike, axis=0, return_inverse=True)[1]).ravel()
@@ -213,13 +226,17 @@ class _Few:
     Edges of one direction are treated alike, for then joints are too.
     """
 
-    def __init__(self, places: Places) -> None:
+    def __init__(self, places: Places, whole: NDArray[np.bool_]) -> None:
         self._places, self._frame = places, places.frame
+        #: The edges with whole connectors at both ends.
+        self._whole = whole
         self._keys: list[set[int]] = [set() for _ in places.shape_of]
+        #: The number of each slot's direction, of each vertex.
+        self._directions = _directions(places)
 
     def chosen(self) -> list[set[int]]:
         """The slots that have keys at each vertex."""
-        split = np.flatnonzero(~_forest(self._frame))
+        split = np.flatnonzero(~self._whole)
         ends = list(zip(split.tolist(), self._one_a_vertex(split), strict=True))
         for edge, end in ends:
             if end is not None:
@@ -229,7 +246,7 @@ class _Few:
                 self._add(edge, 0 if self._refuse(edge, 1) and not self._refuse(edge, 0) else 1)
         shape_of = self._places.shape_of.tolist()
         usual = Counter(
-            (shape_of[v], self._direction(v, slot))
+            (shape_of[v], int(self._directions[v][slot]))
             for v, keys in enumerate(self._keys)
             for slot in keys
         )
@@ -306,12 +323,6 @@ class _Few:
     def _take(self, edge: int, end: int) -> None:
         self._keys[int(self._frame.edges[edge, end])].remove(int(self._places.slots[edge, end]))
 
-    def _direction(self, vertex: int, slot: int) -> int:
-        """Direction of a slot at a vertex, in steps."""
-        direction = self._places.directions[self._places.shape_of[vertex]][slot]
-        way = -1 if self._places.over[vertex] else 1
-        return int(steps_of(self._places.turn[vertex] + way * direction))
-
     def _best(self, vertex: int, usual: Counter[tuple[int, int]]) -> int:
         """The slot for a lone key: not a refused one; as at most others; of a cap; the last."""
         shape = int(self._places.shape_of[vertex])
@@ -321,27 +332,45 @@ class _Few:
             range(self._places.counts[shape][0]),
             key=lambda slot: (
                 not self._places.refuse(vertex, {slot}),
-                usual[shape, self._direction(vertex, slot)],
+                usual[shape, int(self._directions[vertex][slot])],
                 slot not in taken,
                 slot,
             ),
         )
 
 
-def _forest(frame: Frame) -> NDArray[np.bool_]:
-    """Edges with whole connectors at both ends: all of a direction, while they close no loop."""
+def _directions(places: Places) -> list[Ints]:
+    """Numbers of the directions of each vertex's slots."""
+    found = [
+        turn + (-1 if over else 1) * places.directions[shape]
+        for shape, over, turn in zip(places.shape_of, places.over, places.turn, strict=True)
+    ]
+    return np.split(
+        _same_angles(np.concatenate(found)), np.cumsum([len(own) for own in found])[:-1]
+    )
+
+
+def _forests(frame: Frame) -> Iterator[NDArray[np.bool_]]:
+    """Edges with whole connectors at both ends: all of a direction, while they close no loop.
+
+    One for each direction that may come first, if there are few; the others follow around.
+    """
     steps = frame.vertices[frame.edges[:, 1]] - frame.vertices[frame.edges[:, 0]]
-    direction = steps_of(np.arctan2(steps[:, 1], steps[:, 0]), math.pi)
-    whole = np.zeros(len(frame.edges), dtype=bool)
-    for value in np.unique(direction):
-        tried = whole | (direction == value)
-        if _is_forest(frame.edges[tried], len(frame.vertices)):
-            whole = tried
-    return whole
+    direction = _same_angles(np.arctan2(steps[:, 1], steps[:, 0]), math.pi)
+    count = int(direction.max()) + 1
+    for first in range(count if count <= _DIRECTIONS else 1):
+        whole = np.zeros(len(frame.edges), dtype=bool)
+        for value in range(count):
+            tried = whole | (direction == (first + value) % count)
+            if _is_forest(frame.edges[tried], len(frame.vertices)):
+                whole = tried
+        yield whole
 
 
 def _is_forest(edges: Ints, count: int) -> bool:
     """Whether edges close no loop."""
+    if len(edges) >= count:
+        return False
     graph = coo_array((np.ones(len(edges)), edges.T), shape=(count, count))
     parts, _ = connected_components(graph, directed=False)
     return parts == count - len(edges)
