@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+import trimesh
 from kits import kit, tee
 from stub_kit import stub_kit
 
@@ -110,9 +111,17 @@ def test_a_bill_by_hand():
     assert connector.volume == pytest.approx(1290)
     assert connector.mass == pytest.approx(1.29 * 1.24, abs=1e-3)
     assert (connector.seconds, connector.filament) == (None, None)
-    for line in found.values():
-        large = line.part in ("basic", "one_sided", "two_sided")
-        assert line.spares == (0 if large else math.ceil(line.count / 10))
+    # One small piece in ten is spare, and elements are not: 44 halves have 5, and 76 have 8.
+    counts = {line.part: (line.count, line.spares) for line in found.values()}
+    assert counts == {
+        "basic": (19, 0),
+        "two_sided": (8, 0),
+        "connector": (6, 1),
+        "half": (44, 5),
+        "peg": (6, 1),
+    }
+    more = {line.part: (line.count, line.spares) for line in lines(stub_kit(rows=3, columns=4))}
+    assert more["half"] == (76, 8)
 
 
 @pytest.mark.parametrize("make", [lambda: kit("hexagonal"), tee])
@@ -121,7 +130,7 @@ def test_each_line_is_the_solid_of_its_part(make):
     assert sum(line.count for line in lines(made)) == len(made.placements)
     for line in lines(replace(made, material="PETG")):
         solid = made.parts[line.part]
-        size = volume(solid.points(made.values), solid.triangles)
+        size = trimesh.Trimesh(solid.points(made.values), solid.triangles).volume
         assert line.volume == pytest.approx(size, abs=1e-3)
         assert line.mass == pytest.approx(size / 1000 * DENSITIES["PETG"], abs=1e-3)
 

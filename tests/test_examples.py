@@ -1,5 +1,6 @@
 """The examples run, and what README.md and docs/ say of the code is so."""
 
+import ast
 import importlib
 import json
 import os
@@ -143,6 +144,28 @@ def test_numbers_are_those_of_the_code():
         path, _, constant = name.rpartition(".")
         real = getattr(importlib.import_module(f"scadgen.{path}"), constant)
         assert float(value) == pytest.approx(float(real), rel=1e-12), name
+
+
+def _tolerances(layer):
+    """Names of a layer's constants that are far below 1, or as near to it."""
+    for path in sorted((ROOT / "scadgen" / layer).glob("*.py")):
+        module = importlib.import_module(f"scadgen.{layer}.{path.stem}")
+        for node in ast.parse(path.read_text()).body:
+            targets = node.targets if isinstance(node, ast.Assign) else []
+            for name in (
+                found.id for t in targets for found in ast.walk(t) if hasattr(found, "id")
+            ):
+                value = getattr(module, name)
+                if isinstance(value, float) and 0 < min(value, abs(1 - value)) < 1e-3:
+                    yield f"{layer}.{path.stem}.{name}"
+
+
+@pytest.mark.parametrize("layer", ["solid", "joint", "element", "frame", "kit", "plan", "readers"])
+def test_no_tolerance_is_left_out(layer):
+    stated = {name for name, *_ in rows((ROOT / "docs/geometry.md").read_text(), "constant")}
+    found = set(_tolerances(layer))
+    assert found
+    assert found - stated == set()
 
 
 def test_levels_of_detail_are_those_of_the_code():

@@ -18,6 +18,7 @@ from scadgen.frame.graph import make_frame
 from scadgen.frame.sameness import sameness
 from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import Request, build
+from scadgen.kit.store import load
 from scadgen.readers.read import read
 
 ROOT = Path(__file__).parent.parent
@@ -135,6 +136,24 @@ def test_what_is_said_of_other_frames_is_what_their_kits_say(name, said, capsys)
     assert ended.value.code == 2
     refusal = re.search(r" a side of ([\d.]+) mm or a frame ", capsys.readouterr().err)
     assert float(refusal[1]) == pytest.approx(largest, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "side", "given"),
+    [("hexagonal", 10, 120), ("hexagonal", 10, None), ("cairo", 6, None), ("3.4.6.4", 5, None)],
+)
+def test_a_kit_stays_in_its_circle_whatever_the_length_of_its_edges(name, side, given, tmp_path):
+    words = [name, "--radius", 250, "--side", side, "--detail", "draft", "--unchecked"]
+    words += ["--edge-length", given] if given else []
+    with pytest.raises(SystemExit) as ended:
+        main(["kit", *map(str, words), "-o", str(tmp_path / "kit")])
+    assert ended.value.code == 0
+    made = load(tmp_path / "kit")
+    # The circle's centre is in the middle of a tile; somewhere the next one would stick out.
+    far, shortest = np.linalg.norm(made.graph.vertices, axis=1).max(), made.graph.lengths.min()
+    assert 250 / 3 < far <= 250 + 1e-6
+    assert shortest == pytest.approx(given or side * round(shortest / side))
+    assert shortest >= 6 * side - 1e-6
 
 
 def test_with_a_side_it_says_how_far_across_joints_are(run, said):

@@ -94,9 +94,8 @@ def test_two_lengths_by_hand():
     frame = make_frame("pair", points, edges)
     found = move_vertices(frame, 0.6)
     assert found.frame.lengths == pytest.approx(np.full(7, found.frame.lengths[0]), abs=1e-5)
-    assert np.degrees(found.frame.ends.gap) % 90 == pytest.approx(0, abs=1e-4) or np.allclose(
-        np.degrees(found.frame.ends.gap) / 90, np.rint(np.degrees(found.frame.ends.gap) / 90)
-    )
+    quarters = np.degrees(found.frame.ends.gap) / 90
+    assert quarters == pytest.approx(np.rint(quarters), abs=1e-6)
     assert found.largest <= 0.6
     assert move_vertices(frame, 0.01).frame is frame
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shlex
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 __all__ = ["kit"]
 
-#: Options of named frames that say how large one is, in mm.
-_SIZES = {"width", "height", "bay_length", "radius", "outline"}
+#: Options of named frames that say how large one is, and how large what it fills is, in mm.
+_SIZES, _AREAS = {"width", "height", "bay_length"}, {"radius", "outline"}
 
 #: Shares of the time after which a joint is computed, and proved.
 _COMPUTED, _PROVED = 0.2, 0.9
@@ -242,9 +242,12 @@ def _request(frame: str, options: dict[str, Any]) -> tuple[Request, tuple[str, .
     from scadgen.frame.catalogue import ALIASES, NAMES
 
     cells = {"rows": rows, "columns": columns}
-    read = load_frame(frame, of_frame | {n: v for n, v in cells.items() if v is not None})
-    named = frame in NAMES or frame in ALIASES
-    name = re.sub(r"[^A-Za-z0-9.-]+", "_", frame if named else Path(frame).stem).strip("._-")
+    of_frame |= {n: v for n, v in cells.items() if v is not None}
+    family = NAMES.get(ALIASES.get(frame, frame))
+    if family is not None and "edge_length" in family.options and "edge_length" in values:
+        of_frame["edge_length"] = values["edge_length"]
+    read = load_frame(frame, of_frame)
+    name = re.sub(r"[^A-Za-z0-9.-]+", "_", frame if family else Path(frame).stem).strip("._-")
     request = Request(
         "frame" if name.lower() in ("", "kit") else name,
         options["key"] or "loose",
@@ -256,9 +259,26 @@ def _request(frame: str, options: dict[str, Any]) -> tuple[Request, tuple[str, .
         command,
         read.frame,
         rim,
-        resizable=named and not of_frame.keys() & _SIZES,
+        resizable=family is not None and not of_frame.keys() & (_SIZES | _AREAS),
     )
+    if of_frame.keys() & _AREAS and "edge_length" not in values:
+        shortest = float(read.frame.lengths.min())
+        request = _filled(request, frame, of_frame, shortest)
     return request, read.notes
+
+
+def _filled(request: Request, frame: str, options: Mapping[str, Any], length: float) -> Request:
+    """The same with an area that is filled with cells as large as their joints need."""
+    from scadgen.kit.any_frame import growth
+
+    scale = growth(request)
+    while True:
+        length = round(length * scale, 6)
+        read = load_frame(frame, {**options, "edge_length": length})
+        request = replace(request, graph=read.frame)
+        scale = growth(request)
+        if scale < 1 + 1e-6:
+            return request
 
 
 def _weave(name: str) -> Any:  # noqa: ANN401  imported late: the import takes a while

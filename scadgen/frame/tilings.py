@@ -158,7 +158,10 @@ def _fill(name: str, cell: Cell, edge_length: float, area: Area, *, lean: bool =
         kept = [_inside(t @ basis + origin, shape, _STICK_OUT * edge_length) for t in tiles]
         tiles = [t[inside] for t, inside in zip(tiles, kept, strict=True)]
         if not any(map(len, tiles)):
-            msg = f"{name}: no tile with edges of {edge_length:g} mm fits inside the outline"
+            msg = (
+                f"{name}: no tile with edges of {edge_length:g} mm fits inside the outline; "
+                "a larger one or shorter edges work"
+            )
             raise InputError(msg)
     points, edges, tile_of = _outlines(tiles)
     if shape is not None:

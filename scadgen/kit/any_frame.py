@@ -38,7 +38,7 @@ from scadgen.kit.wanted import Wanted, wanted_pieces
 from scadgen.solid.affine import AffineSolid, Floats, Range
 from scadgen.work.each import Means
 
-__all__ = ["build_frame"]
+__all__ = ["build_frame", "growth"]
 
 #: Decimals of a placement, in edge lengths and degrees.
 _DECIMALS = 9
@@ -148,14 +148,35 @@ def _shortest(same: Sameness) -> float:
     return min(edge.length for edge in same.edges)
 
 
+def growth(request: Request) -> float:
+    """How many times as large a frame has to be for its joints.
+
+    Its shortest edges then are whole sides, six at least.
+
+    Raises
+    ------
+    InputError
+        Edges that no ring can hold.
+    """
+    frame = _graph(request)
+    same, kinds, weaves = _joints(request, frame)
+    rings = np.array([weaves[n].ring_ratio for n in kinds.kind_of])
+    return _needed(request, frame, _shortest(same), rings) / _shortest(same)
+
+
+def _needed(request: Request, frame: Frame, shortest: float, rings: Floats) -> float:
+    """Length of its shortest edges, in mm, with which a frame has room for its joints."""
+    side = request.values.get("side", 10.0)
+    need = shortest * least_scale(frame, side, rings, _ROOM)
+    need = max(need, shortest * Apart(frame, rings + _WIDER[-1]).least_scale(side))
+    return max(6, math.ceil(need / side - 1e-9)) * side
+
+
 def _sized(request: Request, frame: Frame, shortest: float, rings: Floats) -> Frame:
     """The frame as large as its shortest edges are to be, or as its joints need."""
-    side = request.values.get("side", 10.0)
     wanted = request.values.get("edge_length", shortest)
     if request.resizable and "edge_length" not in request.values:
-        need = shortest * least_scale(frame, side, rings, _ROOM)
-        need = max(need, shortest * Apart(frame, rings + _WIDER[-1]).least_scale(side))
-        wanted = max(6, math.ceil(need / side - 1e-9)) * side
+        wanted = _needed(request, frame, shortest, rings)
     if abs(wanted - shortest) > 10**-_LENGTH_DECIMALS:
         frame = make_frame(frame.name, frame.vertices * (wanted / shortest), frame.edges)
     return frame
@@ -255,7 +276,7 @@ class _Build:
             min(key.depth for key in keys),
         )
         clearance = min(one.clearance_limit for one in self.pieces)
-        hole = min(one.hole(edge) for one in self.pieces for edge in one.halves)
+        hole = min(one.key_hole for one in self.pieces)
         of_joints = ranges(tightest, clearance, hole)
         of_edges = [
             edge_range([(keys[end.number], end.slot is None) for end in one.ends], one.length)

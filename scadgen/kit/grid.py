@@ -69,7 +69,7 @@ def build_joint(valence: int, weave: Weave, key: str, detail: str) -> Kit:
 
 def _kit(pieces: Pieces, request: Request) -> Kit:
     """All of a kit, from its pieces."""
-    limits = ranges(pieces.key, pieces.clearance_limit, pieces.hole())
+    limits = ranges(pieces.key, pieces.clearance_limit, pieces.key_hole)
     values = default_values(request, [pieces], limits)
     check_values(limits, values)
     count = len(pieces.connectors)

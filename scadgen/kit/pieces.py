@@ -83,16 +83,17 @@ class Pieces:
     volume: float
     extra: int
 
-    def hole(self, edge: int = 0) -> float:
-        """Free width of the ring's hole along an edge, as wide as the window."""
-        return self.holes[edge]
+    @property
+    def key_hole(self) -> float:
+        """Free width of the ring's hole along the keys' edges."""
+        return min(self.holes[edge] for edge in self.halves)
 
     def figures(self) -> dict[str, float]:
         """What is known about them, in sides."""
         return {
             "tube_start_sides": self.key.tube_start,
             "pad_sides": self.key.pad,
-            "ring_hole_sides": min(self.hole(edge) for edge in self.halves),
+            "ring_hole_sides": self.key_hole,
             "window_half_width_sides": self.key.window,
             "window_depth_sides": self.key.depth,
             "clearance_limit_sides": self.clearance_limit,

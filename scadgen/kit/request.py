@@ -161,7 +161,7 @@ def default_values(
     else:
         through = max(key.tube_start - key.pad for key in keys)
         length = peg_length(through, side, clearance)
-        length = min(length, (min(one.hole() for one in pieces) - WALL) * side - 2 * gap)
+        length = min(length, (min(one.key_hole for one in pieces) - WALL) * side - 2 * gap)
     values = {
         "side": side,
         "edge_length": 0.0,

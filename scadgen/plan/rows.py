@@ -8,14 +8,11 @@ import numpy as np
 
 from scadgen.interlock.path import Path
 from scadgen.plan.choice import Choice
-from scadgen.plan.slides import clusters, tubes_of
+from scadgen.plan.slides import ALONG, clusters, tubes_of
 from scadgen.plan.standing import Origin, Standing
 from scadgen.solid.affine import Floats
 
 __all__ = ["Rows"]
-
-#: Sine of the angle up to which ways are parallel.
-_PARALLEL = 1e-3
 
 
 class Rows:
@@ -56,7 +53,7 @@ class Rows:
             if inside == (tube.half in row) or not {tube.element, tube.half} <= there:
                 continue
             way = tube.out if inside else -tube.out
-            if found is not None and float(way @ found) < 1 - _PARALLEL:
+            if found is not None and float(way @ found) < ALONG:
                 return None
             found = way
         return found

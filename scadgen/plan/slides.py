@@ -19,10 +19,10 @@ from scipy.sparse.csgraph import connected_components
 from scadgen.plan.standing import Standing
 from scadgen.solid.affine import Floats
 
-__all__ = ["Tube", "clusters", "sliding", "tubes_of"]
+__all__ = ["ALONG", "Tube", "clusters", "sliding", "tubes_of"]
 
 #: Cosine of the angle up to which directions are the same.
-_ALONG = 1 - 1e-6
+ALONG = 1 - 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,7 +79,7 @@ def sliding(standing: Standing) -> Iterator[tuple[frozenset[int], Floats]]:
         pairs = []
         for element, joint, out in ends:
             along = float(out @ way)
-            pairs += [(joint, element)] * (along > -_ALONG) + [(element, joint)] * (along < _ALONG)
+            pairs += [(joint, element)] * (along > -ALONG) + [(element, joint)] * (along < ALONG)
         rows, columns = np.array(pairs).T
         size = len(groups)
         graph = coo_array((np.ones(len(rows)), (rows, columns)), shape=(size, size))
