@@ -305,6 +305,12 @@ def test_pictures_name_what_goes_in_as_its_files_are_named(frame):
     for step in entry["steps"]:
         page = pages(frame)[step["step"]]
         assert Counter(e.text for e in of_class(page, "name")) == names_of(entry, step)
+        # Each has its ground below it, and is read where strokes are painted above letters.
+        marks = [e for e in page.iter(f"{SVG}text") if e.get("class") in ("halo", "name")]
+        places = [(e.text, e.get("x"), e.get("y")) for e in marks]
+        assert [e.get("class") for e in marks] == ["halo", "name"] * (len(marks) // 2)
+        assert places[::2] == places[1::2]
+        assert "paint-order" not in page.findtext(f"{SVG}style")
         drawn = [len(group) for look in ("new", "set") for group in of_class(page, look)]
         assert sum(drawn) == sum(len(move["parts"]) for move in step["moves"])
     assert len(list(page.iter(f"{SVG}use"))) == len(entry["parts"])

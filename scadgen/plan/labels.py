@@ -80,5 +80,6 @@ class Labels:
         lead = ""
         if off > _LED * self.size:
             lead = f'<path class="lead" d="M{at[0]:.1f} {at[1]:.1f}L{x:.1f} {y:.1f}"/>'
-        y += 0.36 * self.size
-        return f'{lead}<text class="name" x="{x:.1f}" y="{y:.1f}">{html.escape(words)}</text>'
+        # Not all viewers know how to paint a stroke below its own letters.
+        text = f'x="{x:.1f}" y="{y + 0.36 * self.size:.1f}">{html.escape(words)}</text>'
+        return f'{lead}<text class="halo" {text}<text class="name" {text}'

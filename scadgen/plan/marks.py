@@ -20,7 +20,7 @@ STYLE = (
     f".new{{fill:{_NEW};stroke:#7a4300;stroke-width:.9}}"
     ".set{fill:#ffd591;stroke:#7a4300;stroke-width:.9}"
     f".words,.name{{fill:{_DARK}}}"
-    ".name{paint-order:stroke;stroke:#fff;stroke-width:3px;stroke-linejoin:round}"
+    ".halo{fill:#fff;stroke:#fff;stroke-width:3px;stroke-linejoin:round}"
     f".lead{{stroke:{_DARK};stroke-width:.6;fill:none}}"
     f".line{{stroke:{_DARK};stroke-width:1.3;fill:#fff}}"
     f".arrow{{stroke:{_DARK};stroke-width:2;fill:none}}"
