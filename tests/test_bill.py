@@ -208,11 +208,12 @@ def test_a_bill_of_another_kit_is_refused(place, value):
 
 
 @pytest.mark.usefixtures("no_slicer")
-def test_without_a_slicer_the_columns_stay_empty_and_one_line_says_so(run, folder):
+def test_without_a_slicer_its_columns_are_left_out_and_one_line_says_so(run, folder):
     code, out, err = run("bill", folder)
     assert (code, err) == (0, "")
     *rows, total, last = out.splitlines()
-    assert re.fullmatch(r"4 +connector +6 +1 +3\.64 +4\.51", rows[3])
+    assert rows[0].endswith("g each  g all")
+    assert re.fullmatch(r"4 +connector +6 +1 +3\.64 +4\.51 +27\.1", rows[3])
     assert total == "61 pieces, without spares: 253 g of PLA printed solid"
     assert last.startswith("no print times: prusa-slicer is not found; install it")
     code, out, _ = run("bill", folder, "--json", "--material", "petg")
@@ -233,7 +234,9 @@ def test_a_slicer_tells_time_and_filament(run, folder, stand_in, tmp_path):
     assert len(called.read_text().splitlines()) == len(said["lines"]) == 5
     assert "--support-material-buildplate-only" in called.read_text()
     code, out, _ = run("bill", folder)
-    assert "1 h 40 min" in out
+    assert re.search(r"^no\. .*g all +time each +time all +filament g$", out, re.MULTILINE)
+    # Six connectors, each 5991 s and 6.08 cm3.
+    assert re.search(r"^4 +connector .* 1 h 40 min +10 h 0 min +7\.54$", out, re.MULTILINE)
     assert "sliced one by one: 101 h 31 min, 460 g" in out
 
 
@@ -459,6 +462,16 @@ def test_halves_and_connectors_have_no_number(drawn, tmp_path):
         solid = made.parts[part]
         plain = volume(solid.points(made.values), solid.triangles)
         assert check_stl(tmp_path / "part.stl") == pytest.approx(plain, rel=1e-5)
+
+
+def test_export_has_no_numbers_and_says_what_does(run, folder, tmp_path):
+    words = ("--part", "basic", "--set", "number_height=0.4", "-o", tmp_path / "x.stl")
+    code, out, err = run("export", folder, *words)
+    assert (code, out) == (2, "")
+    assert err == (
+        "scadgen: --set number_height=0.4: only OpenSCAD draws numbers; scadgen render KIT "
+        "--set number_height=0.4 works, and so does make SET='-D number_height=0.4'\n"
+    )
 
 
 def test_render_draws_numbers_where_they_are_asked_for(run, folder):

@@ -176,6 +176,18 @@ def test_the_command_of_a_kit_has_flags_as_they_are_typed(run, tmp_path, monkeyp
     ).read_bytes()
 
 
+def test_a_grid_that_is_made_as_other_frames_are_is_told(run, tmp_path):
+    words = ("kit", "square", "--rows", 1, "--columns", 1, "--detail", "draft", "--unchecked")
+    code, out, _ = run(*words, "--rim", "open", "--snap", 1, "-o", tmp_path / "open")
+    assert code == 0
+    assert load(tmp_path / "open").rows == 0
+    assert out.startswith(
+        "note: with --snap and --rim this square frame is made as other frames are: 3 x 3 cells "
+        "unless said, loose pegs, and no rows and columns to set later\n"
+    )
+    assert "note" not in run(*words, "-o", tmp_path / "grid")[1]
+
+
 def test_kit_goes_into_a_folder_of_the_frames_name(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert run("kit", "hexagonal", *DRAFT, "--unchecked")[0] == 0

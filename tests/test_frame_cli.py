@@ -94,7 +94,9 @@ def test_a_side_that_is_too_large_is_told_with_what_is_missing(run, said):
     code, out, _ = run(*words, "--side", 10)
     assert code == 1
     short = f"{edge['missing']:.4g}"
-    assert f"edge 1: 40 mm is {short} mm too short for its two joints, from " in out
+    start = f"\nan edge of kind 1, 40 mm long, is {short} mm too short for its two joints, from "
+    assert start in out
+    assert re.search(r"^kind +count +length.*\n1 +6 +40 ", out, re.MULTILINE)
     assert " (and 5 more)\n" in out
     assert out.endswith("; a side of 8.342 mm or a frame 1.195 times as large would do\n")
 
@@ -257,10 +259,15 @@ def test_long_reports_are_cut_and_json_is_not(run, said):
     assert len(said(NET, "--side", 50, code=1)["in_the_way"]) == 108 + 1
 
 
-def test_outlines_are_typed_as_corners(said):
+def test_outlines_are_typed_as_corners(run, said):
     square = said("square", "--edge-length", 20, "--outline", "0,0 100,0 100,60 0,60")
     assert square["bounds"] == [[0, 0], [100, 60]]
-    assert (square["vertices"], square["edges"]) == (24, 38)
+    # 5 x 3 squares.
+    assert (square["vertices"], square["edges"], square["tiles"]) == (24, 38, 15)
+    words = ("--edge-length", 20, "--outline", "0,0 119,0 119,79 0,79")
+    # Tiles are whole: the rest of the outline stays empty.
+    assert said("square", *words)["tiles"] == 15
+    assert run("square", *words)[1].startswith("square: 24 vertices, 38 edges around 15 tiles, ")
 
 
 def test_the_list_names_all(run, said):
@@ -275,7 +282,8 @@ def test_the_list_names_all(run, said):
 
 def test_options_are_those_of_the_catalogue():
     known = {p.name: p.help for p in cli.commands["frame"].params if p.name in OPTIONS}
-    assert known == {name: f"Named frames: {text}." for name, text in OPTIONS.items()}
+    whole = {name: ", with whole tiles" * (name in ("radius", "outline")) for name in OPTIONS}
+    assert known == {n: f"Named frames: {text}{whole[n]}." for n, text in OPTIONS.items()}
 
 
 def test_the_table_of_the_readme_is_the_catalogue():
@@ -341,7 +349,8 @@ def test_names_of_joints_go_on_after_z():
         ((NET, "--shortest", 50), "at least 50 mm"),
         (("ring", "--sides", 2), "sides = 2: must be a whole number from 3"),
         (("ring", "--sides", 2.5), "2.5"),
-        (("square", "--outline", "0,0 1"), "outline = '0,0 1': must be corners such as"),
+        (("square", "--outline", "0,0 1"), "outline = '0,0 1': must be 3 or more corners such as"),
+        (("square", "--outline", "0,0 1,1"), "outline = '0,0 1,1': must be 3 or more corners"),
         (("ring", "--side", 4), "side = 4 mm: must be from 5 to 100"),
         (("ring", "--side", "nan"), "side = nan mm"),
         (("ring", "--ring-ratio", 11), "ring-ratio = 11 sides: must be from 0.8 to 10"),

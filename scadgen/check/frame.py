@@ -79,8 +79,8 @@ class Build:
             at = edges[missing[edges].argmax()]
             first, second = (where(self.frame.vertices[v]) for v in self.frame.edges[at])
             yield (
-                f"edge {kind + 1}: {self.frame.lengths[at]:.4g} mm is {worst[kind]:.4g} mm too "
-                f"short for its two joints, from {first} to {second}"
+                f"an edge of kind {kind + 1}, {self.frame.lengths[at]:.4g} mm long, is "
+                f"{worst[kind]:.4g} mm too short for its two joints, from {first} to {second}"
                 f"{more(int(np.count_nonzero(missing[edges])))}"
             )
 

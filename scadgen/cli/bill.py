@@ -15,6 +15,7 @@ from scadgen.cli.console import progress, table, timeout_option
 from scadgen.errors import InputError, ToolError
 
 if TYPE_CHECKING:
+    from scadgen.kit.bill import Line
     from scadgen.kit.model import Kit, Slicing
 
 __all__ = ["bill"]
@@ -150,12 +151,13 @@ def _show(kit: Kit) -> None:
             str(line.spares or ""),
             f"{line.volume / 1000:.2f}",
             f"{line.mass:.2f}",
-            "" if line.seconds is None else in_words(line.seconds),
-            "" if line.filament is None else f"{line.filament / 1000 * density:.2f}",
+            f"{line.count * line.mass:.1f}",
+            *(_sliced_words(line, density) if kit.slicing else ()),
         )
         for line in needed
     ]
-    table(("no.", "part", "count", "spares", "cm3 each", "g each", "time each", "filament g"), rows)
+    header = ("no.", "part", "count", "spares", "cm3 each", "g each", "g all")
+    table((*header, *(("time each", "time all", "filament g") if kit.slicing else ())), rows)
     solid = sum(line.count * line.mass for line in needed)
     pieces = sum(line.count for line in needed)
     click.echo(f"{pieces} pieces, without spares: {solid:.0f} g of {kit.material} printed solid")
@@ -163,6 +165,18 @@ def _show(kit: Kit) -> None:
         seconds = sum(line.count * (line.seconds or 0) for line in needed)
         spun = sum(line.count * (line.filament or 0.0) for line in needed) / 1000 * density
         click.echo(f"sliced one by one: {in_words(seconds)}, {spun:.0f} g; {kit.slicing.how}")
+
+
+def _sliced_words(line: Line, density: float) -> tuple[str, str, str]:
+    """Print time of one piece and of all, and filament for one; nothing where it is not known."""
+    from scadgen.kit.bill import in_words
+
+    each = whole = spun = ""
+    if line.seconds is not None:
+        each, whole = in_words(line.seconds), in_words(line.count * line.seconds)
+    if line.filament is not None:
+        spun = f"{line.filament / 1000 * density:.2f}"
+    return each, whole, spun
 
 
 def _remade(command: str, material: str) -> str:

@@ -89,13 +89,21 @@ def settings(
     Raises
     ------
     InputError
-        A change that is not NAME=MM, names no live parameter, or leaves its range.
+        A change that is not NAME=MM, names no live parameter, or leaves its range.  One of what
+        only OpenSCAD draws is told where it works.
     """
+    from scadgen.emit.scad_numbers import HEIGHT
     from scadgen.kit.ranges import check_values
 
     values = dict(kit.values) | {other.parameter: 0.0 for other in others}
     for change in changes:
         name, equals, text = change.partition("=")
+        if equals and name not in values and name == HEIGHT.parameter:
+            msg = (
+                f"--set {change}: only OpenSCAD draws numbers; scadgen render KIT --set {change} "
+                f"works, and so does make SET='-D {change}'"
+            )
+            raise InputError(msg)
         if not equals or name not in values:
             msg = f"--set {change}: must be NAME=MM with NAME one of {', '.join(values)}"
             raise InputError(msg)

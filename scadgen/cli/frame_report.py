@@ -46,6 +46,7 @@ def report(
         Side of the tubes, in mm, if it is to be built.
     """
     frame, largest = build.frame, build.largest_side
+    parts = int(frame.components.max()) + 1
     in_the_way = [*build.unfit]
     if side:
         in_the_way += [*build.too_short(side), *build.too_near(side)]
@@ -54,7 +55,9 @@ def report(
         "name": frame.name,
         "vertices": len(frame.vertices),
         "edges": len(frame.edges),
-        "parts": int(frame.components.max()) + 1,
+        "parts": parts,
+        # Euler's formula, without the one around them all.
+        "tiles": len(frame.edges) - len(frame.vertices) + parts,
         "bounds": frame.bounds.tolist(),
         "notes": list(notes),
         "snap": snapped and _snap(snapped),
@@ -126,9 +129,10 @@ def show(said: dict[str, Any]) -> None:
     """Print what `report` gives."""
     (left, low), (right, high) = said["bounds"]
     parts = f" in {said['parts']} parts" if said["parts"] > 1 else ""
+    tiles = f" around {counted(said['tiles'], 'tile')}" if said["tiles"] else ""
     click.echo(
-        f"{said['name']}: {said['vertices']} vertices, {counted(said['edges'], 'edge')}{parts}, "
-        f"{right - left:.6g} x {high - low:.6g} mm from ({left:.6g}, {low:.6g})"
+        f"{said['name']}: {said['vertices']} vertices, {counted(said['edges'], 'edge')}{tiles}"
+        f"{parts}, {right - left:.6g} x {high - low:.6g} mm from ({left:.6g}, {low:.6g})"
     )
     _lines(said["notes"])
     joints, edges = said["kinds_of_joints"], said["kinds_of_edges"]
@@ -154,7 +158,7 @@ def show(said: dict[str, Any]) -> None:
     )
     click.echo(f"\nkinds of edges: {len(edges)}")
     _table(
-        ("edge", "count", "length", "ends", "too short by" if said["side"] else ""),
+        ("kind", "count", "length", "ends", "too short by" if said["side"] else ""),
         [
             (
                 edge["name"],

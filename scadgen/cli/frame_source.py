@@ -23,11 +23,15 @@ _FAMILY: dict[str, tuple[type, str, str]] = {
     "edge_length": (float, "MM", "length of the shortest edges, in mm"),
     "rows": (int, "N", "cells up"),
     "columns": (int, "N", "cells across"),
-    "radius": (float, "MM", "radius of a circle to fill instead of rows and columns, in mm"),
+    "radius": (
+        float,
+        "MM",
+        "radius of a circle to fill instead of rows and columns, in mm, with whole tiles",
+    ),
     "outline": (
         str,
         '"X,Y ..."',
-        "corners of a polygon to fill instead of rows and columns, in mm",
+        "corners of a polygon to fill instead of rows and columns, in mm, with whole tiles",
     ),
     "width": (float, "MM", "width of a rectangle or ladder, in mm"),
     "height": (float, "MM", "height of a rectangle, in mm"),
@@ -196,8 +200,8 @@ def _corners(text: str) -> list[list[float]]:
         corners = [[float(number) for number in pair.split(",")] for pair in text.split()]
     except ValueError:
         corners = []
-    if not corners or {len(corner) for corner in corners} != {2}:
-        msg = f'outline = {text!r}: must be corners such as "0,0 300,0 150,200", in mm'
+    if len(corners) < 3 or {len(corner) for corner in corners} != {2}:
+        msg = f'outline = {text!r}: must be 3 or more corners such as "0,0 300,0 150,200", in mm'
         raise InputError(msg)
     return corners
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from scadgen.cli.console import Bar, counted, progress
-from scadgen.cli.frame_source import is_grid, load_frame, source_options
+from scadgen.cli.frame_source import is_grid, load_frame, option, source_options
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -87,7 +87,8 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
     default="caps",
     show_default=True,
     metavar="caps|open",
-    help="Other frames: what joints at the rim have where they lack edges of inner ones.",
+    help="Other frames: what joints at the rim have where they lack edges of inner ones.  With "
+    "open, hexagonal and square frames are as others: loose pegs, no rows and columns to set.",
 )
 @click.option(
     "--detail",
@@ -264,7 +265,20 @@ def _request(frame: str, options: dict[str, Any]) -> tuple[Request, tuple[str, .
     if of_frame.keys() & _AREAS and "edge_length" not in values:
         shortest = float(read.frame.lengths.min())
         request = _filled(request, frame, of_frame, shortest)
-    return request, read.notes
+    plain = _plain(frame, [*of_frame, *(["rim"] if rim != "caps" else [])])
+    return request, (*plain, *read.notes)
+
+
+def _plain(frame: str, given: Sequence[str]) -> tuple[str, ...]:
+    """A note that a grid is made as other frames are, if it is one, with the options given."""
+    if not is_grid(frame, ()):
+        return ()
+    causes = " and ".join(option(name) for name in given if not is_grid(frame, [name]))
+    note = (
+        f"with {causes} this {frame} frame is made as other frames are: its pegs are loose "
+        "unless --key is given, and its rows and columns cannot be set later"
+    )
+    return (note,)
 
 
 def _filled(request: Request, frame: str, options: Mapping[str, Any], length: float) -> Request:
