@@ -14,6 +14,7 @@ from scadgen.check.geometry import closed, footprint, gaps, partition, placed, s
 from scadgen.check.locking import joint_locks
 from scadgen.check.proof import proved
 from scadgen.element.pieces import half
+from scadgen.emit.part_words import lopsided, words
 from scadgen.emit.placing import placing
 from scadgen.emit.readme import readme
 from scadgen.emit.scad import scad
@@ -380,7 +381,7 @@ def test_its_joints_turn_with_the_frame():
 def test_a_picture_says_where_each_piece_goes():
     made = fork()
     text = placing(made)
-    assert len(re.findall('text-anchor="start">([^<]+)<', text)) == 4 + ("*" in text)
+    assert len(re.findall('text-anchor="start">([^<]+)<', text)) == 5 + ("*" in text)
     text = text.partition('text-anchor="start"')[0]  # without the legend
     text = text[: text.rindex("<circle")]
     names = re.findall(r"<text[^>]*>([^<]*)</text>", text)
@@ -396,7 +397,66 @@ def test_a_picture_says_where_each_piece_goes():
             expected.append((place.joint if several else "") + other)
     numbers = [str(number) for number in range(1, len(FORK[0]) + 1)]
     assert sorted(names) == sorted([*expected, *numbers])
-    assert text.count("<circle") == len(FORK[0])
+    assert text.count('r="14.0"') == len(FORK[0])
+
+
+@all_of(ladder(), fork(), dozen())
+def test_elements_are_marked_where_their_ends_differ(made):
+    uneven = set()
+    for name in made.elements:
+        points = made.parts[name].points(made.values)
+        length = points[:, 0].min() + points[:, 0].max()
+        about = [length, 0.0, 0.0] - points * [1.0, 1.0, -1.0]
+        if cKDTree(points).query(about)[0].max() > 1e-6:
+            uneven.add(name)
+    assert lopsided(made) == uneven
+    circles = [
+        np.array(re.findall(rf'cx="(.*?)" cy="(.*?)" r="{radius}"', placing(made)), dtype=float)
+        for radius in ("14.0", "3.0")
+    ]
+    joints, dots = (found[:-1] for found in circles)  # without the legend
+    first = next(p for p in made.placements if p.role == "half_a")
+    expected = []
+    for place in made.placements:
+        if place.part in uneven:
+            turn = math.radians(place.turn)
+            off = 120 * np.subtract(place.at, first.at)
+            off += 1.4 * 14 * np.array([math.cos(turn), math.sin(turn)])
+            expected.append(joints[0] + off * (1, -1))
+    assert len(dots) == len(expected) > 0
+    assert np.abs(dots - expected).max() < 0.2
+
+
+@all_of(ladder(), fork(), dozen(), butterfly())
+def test_the_bill_says_what_is_at_the_ends_of_elements(made):
+    said = words(made)
+    ends = {}
+    for site in stand(made).sites:
+        for number, part in [*site.parts.items(), *site.tubes.items()]:
+            piece, place = site.kind.pieces[number], made.placements[part]
+            if place.part not in made.elements:
+                continue
+            end = "socket"
+            if piece.role == "cap":
+                points = made.parts[piece.part].points(made.values)
+                even = cKDTree(points).query(points * [1, -1, -1])[0].max() < 1e-6
+                over = not even and piece.flip != (site.origin.over != place.flip)
+                end = piece.part.replace("_", " ") + (" turned over" if over else "")
+            far = not np.allclose(place.at, site.origin.at, rtol=0, atol=1e-6)
+            ends.setdefault(place.part, [set(), set()])[far].add(end)
+    assert ends.keys() == set(made.elements)
+    for name, found in ends.items():
+        (near,), (far,) = found
+        times = made.parts[name].coefficients["edge_length"].max()
+        length = f"{times * made.values['edge_length']:.1f}".removesuffix(".0")
+        assert said[name] == f"Edge element, {length} mm, {near} to {far}"
+    assert f"| {said['edge_1']} |" in readme(made)
+
+
+def test_a_second_shape_of_a_half_is_not_told_as_one_turned_over():
+    said = words(ladder())
+    assert said["half_A1_over"] == "Locking half A1 - second shape"
+    assert "`half_A1_over` is a shape of its own, not another half turned over." in readme(ladder())
 
 
 @pytest.mark.parametrize("narrow", [26, 40])

@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -11,6 +12,8 @@ from scadgen.emit.readme import readme
 from scadgen.emit.scad_parameters import limits
 from scadgen.errors import InputError
 from scadgen.frame.layout import LAYOUTS, bill
+from scadgen.interlock.path import Path
+from scadgen.kit.model import Way
 from scadgen.kit.ranges import check_values
 
 
@@ -62,6 +65,32 @@ def test_a_proved_kit_says_how_its_order_is_planned():
             "`scadgen plan` of this folder" in section(text, "How to put it together")
         ) == proved
         assert ("| `plan/` |" in text) == proved
+
+
+@pytest.mark.parametrize(("first", "second"), ["AB", "BA"])
+def test_halves_go_in_in_the_order_that_is_proved(first, second):
+    # They come out backwards: the last first.
+    plain = stub_kit()
+    roles = [piece.role for piece in plain.joints[0].pieces]
+    still = Path.through(np.zeros((2, 6)), np.zeros(3))
+    ways = [
+        Way(f"half {half} comes out", (roles.index(f"half_{half.lower()}"),), still)
+        for half in (second, first)
+    ]
+    made = with_joint(plain, verdicts={"half A comes out": "yes"}, ways=tuple(ways))
+    text = section(readme(made), "How to put it together")
+    assert f"put half {first} and then half {second} into the gap" in text
+    assert "put half A and half B into the gap" in readme(plain)
+
+
+@pytest.mark.parametrize("key", ["fixed", "loose"])
+def test_it_says_that_friction_holds_pegs_and_what_helps(key):
+    text = section(readme(stub_kit(key=key)), "How to put it together")
+    text = " ".join(text.partition("### What holds it")[2].split())
+    assert text.startswith("Friction alone holds ")
+    assert ("each row" in text) == (key == "fixed")
+    assert "slide" in text
+    assert "A smaller `peg_clearance` helps, and so does a drop of glue" in text
 
 
 def test_spares_are_for_small_pieces_only():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 
-from scadgen.emit.scad_parameters import label
+from scadgen.emit.part_words import words
 from scadgen.kit.bill import Line, lines
 from scadgen.kit.model import DENSITIES, Kit
 
@@ -43,18 +43,19 @@ def parts_csv(kit: Kit) -> str:
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
     table.writerow(_HEADER)
-    table.writerows(_row(kit, line) for line in lines(kit))
+    what = words(kit)
+    table.writerows(_row(kit, line, what[line.part]) for line in lines(kit))
     return text.getvalue()
 
 
-def _row(kit: Kit, line: Line) -> tuple[str | int | float | None, ...]:
+def _row(kit: Kit, line: Line, what: str) -> tuple[str | int | float | None, ...]:
     grams = None
     if line.filament is not None:
         grams = round(line.filament / 1000 * DENSITIES[kit.material], 3)
     return (
         line.number,
         line.part,
-        label(line.part),
+        what,
         line.count,
         line.spares,
         line.volume,

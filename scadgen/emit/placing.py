@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from functools import partial
 
 import numpy as np
 
+from scadgen.emit.part_words import lopsided
 from scadgen.emit.picture import COLOURS
 from scadgen.emit.templates import UNCHECKED
 from scadgen.frame.placement import Placement
@@ -23,6 +24,9 @@ _EDGE, _MARGIN = 120.0, 50.0
 
 #: Radius of a joint, width of a tube, side of a key's mark, and size of the text, in pixels.
 _JOINT, _TUBE, _KEY, _TEXT = 14.0, 9.0, 10.0, 12.0
+
+#: Where marks of an element's ends are, in radii of a joint, and radius of a near end's, in pixels.
+_BESIDE, _DOT = 1.4, 3.0
 
 #: Size of the letter below a joint's number, and height of a line of the legend, in pixels.
 _LETTER, _LEGEND = 9.0, 32.0
@@ -44,32 +48,35 @@ def placing(kit: Kit) -> str:
     text
         SVG: elements have their names and joints their numbers and letters, dark squares stand
         where a peg goes in, and short stubs are loose connectors, by the end of their names.
+        A white dot is on the near end of each element whose ends differ.
         What lies the other way up has a star; a joint has one if its halves do.  A legend says so.
     """
     points = np.array([p.at for p in kit.placements]) * (_EDGE, -_EDGE)
     corner = points.min(axis=0) - _MARGIN
     width, height = points.max(axis=0) + _MARGIN - corner
     width = max(width, _WIDE)
-    names = set(kit.elements)
+    names, dotted = set(kit.elements), lopsided(kit)
     numbers = {at: number for number, at in enumerate(kit.vertices, 1)}
-    layers: list[list[str]] = [[], [], [], []]
+    layers: list[list[str]] = [[], [], [], [], []]
     for placement, point in zip(kit.placements, points - corner, strict=True):
         if placement.part in names:
             end = point + _ahead(placement, _EDGE * _times(kit, placement.part))
             layers[0].append(_line(point, end, placement.role))
-            layers[3].append(_text((point + end) / 2, placement.marked(placement.part)))
+            layers[4].append(_text((point + end) / 2, placement.marked(placement.part)))
+            if placement.part in dotted:
+                layers[3].append(_dot(point + _ahead(placement, _BESIDE * _JOINT)))
         elif placement.role == "cap":
             layers[0].append(_line(point, point + _ahead(placement, 2 * _JOINT), "cap"))
             which = placement.part.partition("_")[2]
-            layers[3].append(
+            layers[4].append(
                 _text(point + _ahead(placement, 2.6 * _JOINT), placement.marked(which))
             )
         elif placement.role == "half_a":
             letter = placement.marked(placement.joint)
             layers[1].append(_joint(point, str(numbers[placement.at]), letter))
         elif placement.role == "peg":
-            layers[2].append(_peg(point + _ahead(placement, 1.4 * _JOINT)))
-    legend = _legend(kit, height)
+            layers[2].append(_peg(point + _ahead(placement, _BESIDE * _JOINT)))
+    legend = _legend(kit, dotted, height)
     height += _LEGEND * len(legend)
     layers.append(legend)
     drawn = "\n".join(shape for layer in layers for shape in dict.fromkeys(layer))
@@ -82,7 +89,7 @@ def placing(kit: Kit) -> str:
     )
 
 
-def _legend(kit: Kit, top: float) -> list[str]:
+def _legend(kit: Kit, dotted: Collection[str], top: float) -> list[str]:
     """What shapes mean, a line each: those that the picture has."""
     letter = kit.joints[0].name
     kind = ", and its kind" if letter else ""
@@ -90,6 +97,8 @@ def _legend(kit: Kit, top: float) -> list[str]:
         (partial(_joint, number="1", letter=letter), f"a joint: its number in the plan{kind}"),
         (partial(_tube, role="row"), "an edge element, by its name"),
     ]
+    if any(placement.part in dotted for placement in kit.placements):
+        said.append((_dotted, "an element's near end: its number begins there"))
     if any(placement.role == "peg" for placement in kit.placements):
         said.append((_peg, "where a peg goes in"))
     caps = [placement.part for placement in kit.placements if placement.role == "cap"]
@@ -126,6 +135,20 @@ def _tube(middle: Floats, role: str) -> str:
     """A short piece of a tube."""
     half = np.array([_JOINT, 0.0])
     return _line(middle - half, middle + half, role)
+
+
+def _dot(middle: Floats) -> str:
+    """The mark of a near end: it is seen on a tube and on a peg's mark."""
+    x, y = middle
+    return (
+        f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{_DOT}" fill="white" stroke="#222222" '
+        f'stroke-width="1"/>'
+    )
+
+
+def _dotted(middle: Floats) -> str:
+    """A short piece of a tube with that mark."""
+    return _tube(middle, "row") + _dot(middle)
 
 
 def _times(kit: Kit, name: str) -> float:

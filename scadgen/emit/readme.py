@@ -9,8 +9,9 @@ from itertools import pairwise
 from typing import Any
 
 from scadgen import __version__
+from scadgen.emit.part_words import lopsided, words
 from scadgen.emit.picture import MOST_JOINTS
-from scadgen.emit.scad_parameters import Parameter, label, sections
+from scadgen.emit.scad_parameters import Parameter, sections
 from scadgen.emit.scad_text import literal
 from scadgen.emit.templates import environment
 from scadgen.frame.layout import MOST_CELLS, bill
@@ -43,8 +44,8 @@ def readme(kit: Kit) -> str:
     text
         Markdown, UTF-8.
     """
-    needed = lines(kit)
-    asked = {line.part for line in needed}
+    needed, what = lines(kit), words(kit)
+    asked = [line.part for line in needed]
     settings = {p.name: p for section in sections(kit) for p in section.parameters}
     engine = environment()
     engine.filters["md"] = _plain
@@ -57,7 +58,7 @@ def readme(kit: Kit) -> str:
         detail=kit.detail,
         scad=f"{kit.frame}.scad",
         macro=f"{kit.frame}.FCMacro",
-        needed=[_needed(kit, line) for line in needed],
+        needed=[_needed(line, what[line.part]) for line in needed],
         all=_whole(kit, needed),
         material=kit.material,
         density=DENSITIES[kit.material],
@@ -66,6 +67,9 @@ def readme(kit: Kit) -> str:
         others=[f"`{name}`" for name in kit.parts if name not in asked],
         joints=[_joint(kit, one) for one in kit.joints],
         grid=kit.rows > 0,
+        halves=_halves(kit),
+        lopsided=not lopsided(kit).isdisjoint(asked),
+        second_shapes=[f"`{name}`" for name in asked if name.endswith("_over")],
         half_names=sorted({name for one in kit.joints for name in one.half_parts}),
         other_way_up=any(place.other_way_up for place in kit.placements),
         side=literal(kit.values["side"]),
@@ -94,6 +98,21 @@ def _joint(kit: Kit, one: Joint) -> dict[str, Any]:
     }
 
 
+def _halves(kit: Kit) -> str:
+    """The halves of a key in the order in which they go in; "" where that is not one for all."""
+    orders = {
+        tuple(
+            one.pieces[piece].role
+            for way in reversed(one.ways)
+            for piece in way.moving
+            if one.pieces[piece].role in _HALVES
+        )
+        for one in kit.joints
+    }
+    order = [_HALVES[role] for role in orders.pop()]
+    return "" if orders or len(order) != len(_HALVES) else " and then ".join(order)
+
+
 def _counted(one: Joint, part: str, count: int) -> str:
     """How many of a part a joint has, as which half, and where from its key it lies turned over."""
     mine = [p for p in one.pieces if p.part == part]
@@ -108,13 +127,12 @@ def _counted(one: Joint, part: str, count: int) -> str:
     return f"{count} x `{part}`" + (f" ({', '.join(notes)})" if notes else "")
 
 
-def _needed(kit: Kit, line: Line) -> dict[str, Any]:
+def _needed(line: Line, what: str) -> dict[str, Any]:
     """A line of the bill, and what the part is; volumes in cm3, time in words."""
-    key_end = "peg end" if kit.key == "fixed" else "socket end"
     return {
         "number": line.number,
         "part": line.part,
-        "what": label(line.part).replace("peg end", key_end),
+        "what": what,
         "count": line.count,
         "spare": line.spares,
         "each": line.volume / 1000,

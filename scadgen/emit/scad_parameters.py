@@ -112,14 +112,14 @@ def label(choice: str) -> str:
     Examples
     --------
     >>> label("half_A2_over")
-    'Locking half A2 turned over'
+    'Locking half A2 - second shape'
     """
     if choice in _LABELS:
         return _LABELS[choice]
     kind, _, rest = choice.partition("_")
     number, _, turned = rest.partition("_")
     if kind == "half":
-        return f"Locking half {number}" + (" turned over" if turned else "")
+        return f"Locking half {number}" + (" - second shape" if turned else "")
     if kind == "joint":
         return f"Joint {number} " + ("pulled apart" if turned else "assembled")
     words = {"connector": "Loose connector {} for the rim"}.get(kind, _LABELS[kind] + " {}")
