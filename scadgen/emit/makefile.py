@@ -14,6 +14,9 @@ from scadgen.kit.model import Kit
 
 __all__ = ["makefile", "stl_check"]
 
+#: Views that are printed, and look like nothing.
+_FLAT = ("plate", "joint_plate", "coupon")
+
 
 def makefile(kit: Kit) -> str:
     """Write the Makefile that renders and checks everything a kit can print.
@@ -37,7 +40,7 @@ def makefile(kit: Kit) -> str:
             command=comment(kit.command),
             scad=f"{kit.frame}.scad",
             parts=list(kit.parts),
-            pictures=[name for name in views(kit) if name not in ("plate", "coupon")],
+            pictures=[name for name in views(kit) if name not in _FLAT],
             proved=kit.proved,
         )
     )

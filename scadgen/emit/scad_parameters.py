@@ -34,6 +34,7 @@ _LABELS: Mapping[str, str] = {
     "tube": "Plain tube",
     "edge": "Edge element",
     "plate": "Print plate of a whole frame",
+    "joint_plate": "Print plate of one joint to try first",
     "joint": "Joint assembled",
     "joint_exploded": "Joint pulled apart",
     "frame": "Frame assembled",
@@ -103,7 +104,7 @@ _NUMBERS = Section(
 def views(kit: Kit) -> list[str]:
     """What is drawn beside single parts, as ``part`` names it."""
     joints = [view for one in kit.joints for view in (one.view, f"{one.view}_exploded")]
-    return ["plate", *joints, "frame", "coupon"]
+    return ["plate", "joint_plate", *joints, "frame", "coupon"]
 
 
 def label(choice: str) -> str:
