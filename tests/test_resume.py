@@ -54,7 +54,11 @@ def kept(folder):
 def test_what_was_done_before_an_interrupt_is_kept_and_gone_on_with(tmp_path):
     (tmp_path / "fork.json").write_text(json.dumps(FORK))
     first = started(tmp_path, "--jobs", "2", "-o", "kit")
-    said = [line for line in iter(first.stderr.readline, "") if _counted(first, line)]
+    said = []
+    for line in iter(first.stderr.readline, ""):
+        said.append(line)
+        if "computing the joints, 1 of" in line:
+            os.killpg(first.pid, signal.SIGINT)
     assert said[-1] == "scadgen: interrupted\n"
     assert not any("Traceback" in line for line in said), "".join(said)
     assert first.wait(60) == 130
@@ -70,13 +74,6 @@ def test_what_was_done_before_an_interrupt_is_kept_and_gone_on_with(tmp_path):
     assert {path: path.read_bytes() for path in before} == before
     texts = {(tmp_path / name / "kit.json").read_bytes() for name in ("kit", "again", "anew")}
     assert len(texts) == 1
-
-
-def _counted(run, line):
-    """Interrupt a run and its processes once its first joint is there."""
-    if "computing the joints, 1 of" in line:
-        os.killpg(run.pid, signal.SIGINT)
-    return True
 
 
 def test_joints_that_are_kept_are_not_computed_again(tmp_path, monkeypatch):

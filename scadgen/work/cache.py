@@ -10,9 +10,8 @@ import contextlib
 import io
 import json
 import os
+import re
 import tempfile
-import zipfile
-import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -34,8 +33,9 @@ _LEFT = 0.9
 #: Name of the JSON beside the arrays.
 _JSON = "json"
 
-#: What a file that is damaged, or not one of these, makes the reader raise.
-_DAMAGED = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error)
+#: Files that are written here, by their names: results, and those that never got whole.  The
+#: folder may be anybody's, and hold files of others, which are not touched.
+_OURS = re.compile(r"[0-9a-f]{62}(\.npz|\.\w{8}\.part)")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -87,7 +87,7 @@ class Cache:
             with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as file:
                 arrays = {name: file[name] for name in file.files}
             values = json.loads(arrays.pop(_JSON).tobytes())
-        except _DAMAGED:
+        except Exception:  # noqa: BLE001 -- the readers let out whatever damaged files cause
             return None
         if not isinstance(values, dict) or values.pop("key", None) != key:
             return None
@@ -130,7 +130,9 @@ class Cache:
 
     def _files(self) -> Iterator[tuple[float, int, Path]]:
         """When each file was last used, its size, and the file."""
-        for path in self.folder.glob("??/*"):
+        for path in self.folder.glob("[0-9a-f][0-9a-f]/*"):
+            if not _OURS.fullmatch(path.name):
+                continue
             with contextlib.suppress(OSError):
                 found = path.stat()
                 yield found.st_mtime, found.st_size, path
@@ -139,7 +141,7 @@ class Cache:
 def _write(path: Path, content: memoryview) -> None:
     """Write a file that is there whole or not at all."""
     path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, suffix=".part")
+    handle, name = tempfile.mkstemp(".part", f"{path.stem}.", path.parent)
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(content)
