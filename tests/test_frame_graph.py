@@ -1,11 +1,14 @@
 """Frames as values: order, angles, and what is no planar frame."""
 
+import time
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from scadgen.errors import InputError, InvariantError
+from scadgen.frame import planarity
 from scadgen.frame.graph import LARGEST, Frame, make_frame
 from scadgen.frame.planarity import crossings, touches
 
@@ -122,6 +125,31 @@ def test_a_frame_out_of_order_is_a_bug():
 def test_crossings_and_touches_are_found():
     points = np.array([[0, 0], [4, 4], [0, 4], [4, 0], [2, 0.01], [2, -9]])
     edges = np.array([[0, 1], [2, 3], [0, 3], [4, 5]])
-    assert crossings(points, edges).tolist() == [[0, 1], [2, 3]]
-    assert touches(points, edges, 0.02).tolist() == [[4, 2]]
-    assert touches(points, edges, 0.005).tolist() == []
+    assert crossings(points, edges, 9).tolist() == [[0, 1], [2, 3]]
+    assert touches(points, edges, 0.02, 9).tolist() == [[4, 2]]
+    assert touches(points, edges, 0.005, 9).tolist() == []
+
+
+@pytest.mark.parametrize("at_once", [1, 100, 10**6])
+def test_the_first_crossings_and_touches_are_found_however_many_there_are(monkeypatch, at_once):
+    # Bars at heights 0 to 9, and posts on the lowest one through all the others.
+    points = np.array([*([x, y] for y in range(10) for x in (0, 20)), *np.ones((20, 2))])
+    points[20:] = [[x, y] for x in range(1, 11) for y in (0, 9.5)]
+    edges = np.arange(40).reshape(-1, 2)
+    monkeypatch.setattr(planarity, "_AT_ONCE", at_once)
+    all_of_them = [[bar, post] for bar in range(10) for post in range(10, 20)]
+    assert crossings(points, edges, 100).tolist() == all_of_them
+    assert crossings(points, edges, 34).tolist() == all_of_them[:35]
+    assert touches(points, edges, 0.1, 10).tolist() == [[20 + 2 * k, 0] for k in range(10)]
+    assert touches(points, edges, 0.1, 6).tolist() == [[20 + 2 * k, 0] for k in range(7)]
+
+
+def test_of_very_many_crossings_and_touches_some_are_counted():
+    start = time.process_time()
+    ends = np.random.default_rng(1).random((3000, 2)) * 1000
+    with pytest.raises(InputError, match=r"edges 0 and \d+ cross at .* \(and at least 1000 more\)"):
+        make_frame("scribble", ends, np.arange(3000).reshape(-1, 2))
+    level = np.stack([np.arange(3000.0), np.zeros(3000)], axis=1)
+    with pytest.raises(InputError, match=r"vertex 1 at .* lies on edge 0 \(and at least 1000 more"):
+        make_frame("stack", level, np.arange(3000).reshape(2, -1).T)
+    assert time.process_time() - start < 10.0

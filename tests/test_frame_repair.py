@@ -148,8 +148,31 @@ def test_what_cannot_be_repaired_is_refused_in_one_line(given_segments, options,
 def test_pieces_count_too():
     grid = [[[k, -1], [k, 10]] for k in range(10)] + [[[-1, k], [10, k]] for k in range(10)]
     assert len(repair("grid", grid, most=220).frame.edges) == 220
-    with pytest.raises(InputError, match="220 segments: at most 219"):
+    with pytest.raises(
+        InputError, match=r"^more than 219 segments once 20 are split where they cross, unless .*--"
+    ):
         repair("grid", grid, most=219)
+    bars = [[[k, 0], [k + 10, 0]] for k in range(10)]
+    assert len(repair("stack", bars, most=100).frame.edges) == 19
+    with pytest.raises(InputError, match="more than 99 segments once 10 are split where ends lie"):
+        repair("stack", bars, most=99)
+
+
+@pytest.mark.parametrize(
+    ("spread", "options", "said"),
+    [
+        ([1000, 1000], {}, r"more than 100000 segments once \d+ are split where they cross"),
+        ([1000, 1000], {"split": False}, r"segments cross at .* \(and at least 1000 more\);"),
+        ([1000, 0], {}, r"more than 100000 segments once \d+ are split where ends lie on them"),
+        ([0.005, 0.005], {}, "places near .* are within the tolerance of 0.01 mm of each other"),
+    ],
+)
+def test_what_would_be_very_many_pieces_is_refused_before_they_are_made(spread, options, said):
+    ends = np.random.default_rng(1).random((2500, 2, 2)) * spread
+    start = time.process_time()
+    with pytest.raises(InputError, match=said):
+        repair("scribble", ends, **options)
+    assert time.process_time() - start < 10.0
 
 
 def test_thirty_thousand_segments_take_a_moment():

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,7 +16,7 @@ from scipy.spatial import cKDTree
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import LARGEST, Frame, make_frame
-from scadgen.frame.planarity import TOUCH, crossings, more, touches, where
+from scadgen.frame.planarity import COUNTED, TOUCH, crossings, more, touches, where
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["MOST_SEGMENTS", "REPAIRS", "TOLERANCE", "Repaired", "repair"]
@@ -30,6 +31,10 @@ TOLERANCE = 0.01
 #: Ends that are merged lie within this many tolerances of each other; more is a curve of tiny
 #: segments, or a tolerance that is too coarse.
 _SPREAD = 5
+
+#: Pairs of ends that share a square whose diagonal is the tolerance: at most this many.  All that
+#: are near enough to be merged are some twenty times as many, which still fit into the memory.
+_CROWDED = 1_000_000
 
 #: Merging and splitting settle in a few rounds; what takes more goes in circles.
 _ROUNDS = 40
@@ -73,6 +78,7 @@ class _Work:
     points: Floats
     pairs: Ints
     tolerance: float
+    most: int
     done: Counter[str] = field(default_factory=Counter)
     notes: list[str] = field(default_factory=list)
 
@@ -129,7 +135,6 @@ def repair(
             frame = make_frame(name, work.points[used], numbers.reshape(-1, 2))
             counts = {kind: work.done[kind] for kind in REPAIRS}
             return Repaired(frame, MappingProxyType(counts), tuple(work.notes))
-        _check_count(len(work.pairs), most)
     msg = f"repairs with a tolerance of {tolerance:g} mm do not settle; try a smaller one"
     raise InputError(msg)
 
@@ -149,7 +154,7 @@ def _begin(segments: ArrayLike, tolerance: float, most: int) -> _Work:
         msg = f"segment {bad[0]}, {ends}: must be within {LARGEST:g} mm of 0"
         raise InputError(msg)
     points = given.reshape(-1, 2).round(9) + 0.0
-    return _Work(points, np.arange(2 * len(given)).reshape(-1, 2), tolerance)
+    return _Work(points, np.arange(2 * len(given)).reshape(-1, 2), tolerance, most)
 
 
 def _merge(work: _Work) -> None:
@@ -158,6 +163,7 @@ def _merge(work: _Work) -> None:
         points, number, counts = np.unique(
             work.points[work.pairs.ravel()], axis=0, return_inverse=True, return_counts=True
         )
+        _check_crowd(points, work.tolerance)
         near = cKDTree(points).query_pairs(work.tolerance, output_type="ndarray")
         work.points, work.pairs = points, number.reshape(-1, 2)
         if not len(near):
@@ -180,6 +186,19 @@ def _merge(work: _Work) -> None:
             ),
         )
         work.pairs = stays[work.pairs]
+
+
+def _check_crowd(points: Floats, tolerance: float) -> None:
+    """Refuse so many points near each other that their pairs would fill the memory."""
+    cells = np.floor(points / (tolerance / np.sqrt(2)))
+    _, first, counts = np.unique(cells, axis=0, return_index=True, return_counts=True)
+    if (counts * (counts - 1) // 2).sum() > _CROWDED:
+        worst = int(counts.argmax())
+        msg = (
+            f"{counts[worst]} places near {where(points[first[worst]])} are within the tolerance "
+            f"of {tolerance:g} mm of each other; try a smaller one"
+        )
+        raise InputError(msg)
 
 
 def _check_spread(work: _Work, group: Ints, stays: Ints) -> None:
@@ -215,9 +234,12 @@ def _drop(work: _Work, again: str) -> None:
 
 def _join(work: _Work) -> bool:
     """Split segments at ends that lie on them; whether there were any."""
-    on = touches(work.points, work.pairs, work.tolerance)
+    room = work.most - len(work.pairs)
+    on = touches(work.points, work.pairs, work.tolerance, room)
     if not len(on):
         return False
+    if len(on) > room:
+        _refuse_pieces(work, "where ends lie on them")
     point, segment = on.T
     start, end = work.points[work.pairs[segment]].transpose(1, 0, 2)
     along = end - start
@@ -238,15 +260,19 @@ def _join(work: _Work) -> bool:
 
 def _cross(work: _Work, *, split: bool) -> bool:
     """Split segments where they cross; whether there were any."""
-    pairs = crossings(work.points, work.pairs)
+    # Each crossing makes two pieces more.
+    room = (work.most - len(work.pairs)) // 2 if split else COUNTED
+    pairs = crossings(work.points, work.pairs, room)
     if not len(pairs):
         return False
+    if split and len(pairs) > room:
+        _refuse_pieces(work, "where they cross")
     (a, b), (c, d) = (work.points[work.pairs[side]].transpose(1, 0, 2) for side in pairs.T)
     turn = _cross_product(b - a, d - c)
     shares = np.stack([_cross_product(c - a, d - c), _cross_product(c - a, b - a)]) / turn
     at = (a + shares[0][:, None] * (b - a)).round(9) + 0.0
     if not split:
-        place = where(at[0]) + more(len(at))
+        place = where(at[0]) + more(len(at), COUNTED)
         msg = f"segments cross at {place}; they must not cross, or be split there (no --no-split)"
         raise InputError(msg)
     work.note("crossings", (f"crossing split at {where(point)}" for point in at))
@@ -271,6 +297,14 @@ def _split(work: _Work, segment: Ints, point: Ints, share: Floats) -> None:
 
 def _cross_product(a: Floats, b: Floats) -> Floats:
     return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+
+
+def _refuse_pieces(work: _Work, place: str) -> NoReturn:
+    msg = (
+        f"more than {work.most} segments once {len(work.pairs)} are split {place}, unless more "
+        "are allowed (--most)"
+    )
+    raise InputError(msg)
 
 
 def _check_count(count: int, most: int) -> None:
