@@ -383,6 +383,8 @@ BAD_KITS = [
     ("hexagonal", ("--weave", "list.json"), "weave list: must be a JSON object with amplitude"),
     ("hexagonal", ("--weave", "words.json"), "weave: span = 'long': must be a number from 0.1"),
     ("hexagonal", ("--weave", "."), "weave '.': neither a file nor one of"),
+    ("hexagonal", ("--weave", "/dev/zero"), "weave '/dev/zero': is a device or a pipe: must be a"),
+    ("hexagonal", ("--weave", "long.json"), "weave 'long.json': 100001 bytes: at most 100000"),
     ("hexagonal", ("--output", "file"), "cannot write the kit to 'file': it is a file"),
     ("hexagonal", ("--output", "file/kit"), "cannot write the kit to 'file/kit': "),
     ("hexagonal", ("--output", "."), "it is the current folder"),
@@ -402,6 +404,7 @@ def test_a_kit_that_cannot_be_is_refused(frame, words, message, refused, tmp_pat
         Path(f"{name}.json").write_text(json.dumps(entries))
     Path("empty.json").write_text("")
     Path("list.json").write_text("[]")
+    Path("long.json").write_text("[" + " " * 99_999 + "]")
     Path("words.json").write_text(json.dumps({**WEAVE, "span": "long"}))
     Path("file").write_text("mine")
     before = files(tmp_path)

@@ -2,8 +2,12 @@
 
 import json
 import math
+import os
 import re
+import time
+from pathlib import Path
 
+import ezdxf
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -14,7 +18,7 @@ from scadgen.frame.catalogue import NAMES, named
 from scadgen.frame.graph import make_frame
 from scadgen.readers.json_frame import dumps
 from scadgen.readers.read import READERS, read
-from scadgen.readers.reading import Reading
+from scadgen.readers.reading import Reading, read_regular
 
 TRIANGLE = {"vertices": [[0, 0], [30, 0], [0, 40]], "edges": [[0, 1], [1, 2], [2, 0]]}
 CUBE_TOP = "v 0 0 5\nv 2 0 5\nv 2 2 5\nv 0 2 5\n"
@@ -150,6 +154,27 @@ def test_files_of_no_known_kind_missing_files_and_folders_are_refused(tmp_path):
 
 
 @pytest.mark.parametrize("kind", READERS)
+def test_devices_and_pipes_are_refused_at_once_and_links_to_files_read(tmp_path, kind):
+    (tmp_path / f"zero{kind}").symlink_to("/dev/zero")
+    os.mkfifo(tmp_path / f"pipe{kind}")
+    for name in ("zero", "pipe"):
+        said = refusal(tmp_path / f"{name}{kind}")
+        assert said.endswith("is a device or a pipe: must be a regular file")
+    (tmp_path / f"link{kind}").symlink_to(written(tmp_path, f"empty{kind}", ""))
+    assert refusal(tmp_path / f"link{kind}").endswith("is empty")
+
+
+def test_no_more_is_read_of_a_file_than_it_may_have(tmp_path):
+    path = written(tmp_path, "any.json", b"x" * 100)
+    assert read_regular(path, 100) == b"x" * 100
+    with pytest.raises(InputError, match=r"^100 bytes: at most 99, so far$"):
+        read_regular(path, 99, ", so far")
+    # It says that it has no bytes.
+    with pytest.raises(InputError, match=r"^4 bytes: at most 3$"):
+        read_regular(Path("/proc/self/status"), 3)
+
+
+@pytest.mark.parametrize("kind", READERS)
 def test_each_reader_refuses_noise_and_the_files_of_the_others(tmp_path, kind):
     others = [b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", b"solid cube\nendsolid", b"\0" * 100, b"OFFSET 3"]
     others += [json.dumps(TRIANGLE).encode()] if kind != ".json" else []
@@ -179,7 +204,14 @@ def test_a_million_vertices_are_refused_before_they_are_read(tmp_path):
 def test_parts_that_are_not_connected_are_refused_unless_asked_for(tmp_path):
     two = {"vertices": [[0, 0], [9, 0], [0, 5], [9, 5]], "edges": [[0, 1], [2, 3]]}
     path = written(tmp_path, "two.json", two)
-    assert "2 parts that are not connected, one with (0, 0), one with (0, 5)" in refusal(path)
+    assert refusal(path).endswith(
+        "2 parts that are not connected, the smallest of 1 edge between (0, 5) and (9, 5); connect "
+        "them, by a larger --tolerance where ends nearly meet, or allow it with --components"
+    )
+    beside = TRIANGLE | {"vertices": [*TRIANGLE["vertices"], [50, 9], [60, 9], [60, 0], [50, 0]]}
+    beside["edges"] = [*TRIANGLE["edges"], [3, 4], [4, 5], [5, 6], [6, 3]]
+    said = refusal(written(tmp_path, "beside.json", beside))
+    assert "the smallest of 4 edges between (50, 0) and (60, 9); connect them" in said
     assert len(read(path, Reading(components=True)).frame.edges) == 2
 
 
@@ -192,11 +224,16 @@ def test_short_edges_are_refused_with_what_is_missing(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "wrong", [{"scale": 0}, {"scale": math.nan}, {"tolerance": 0}, {"flatten": -1}]
+    "wrong",
+    [
+        *({"scale": 0}, {"scale": math.nan}, {"tolerance": 0}, {"flatten": -1}, {"shortest": -1}),
+        *({"shortest": math.nan}, {"shortest": math.inf}, {"most": -5}, {"most": 0}),
+    ],
 )
 def test_readings_that_make_no_sense_are_refused(wrong):
-    with pytest.raises(InputError, match=f"{next(iter(wrong))} = "):
+    with pytest.raises(InputError, match=f"^{next(iter(wrong))} = .*: must be .*") as error:
         Reading(**wrong)
+    assert "\n" not in str(error.value)
 
 
 def test_obj_gives_the_sides_of_faces_and_lines(tmp_path):
@@ -212,6 +249,47 @@ def test_a_side_of_two_faces_is_one_edge_and_loose_vertices_are_none(tmp_path):
     assert (len(frame.vertices), len(frame.edges)) == (4, 5)
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.obj", f"{CUBE_TOP}f 1 2 3 4\n"),
+        ("a.off", "OFF\n4 1 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n4 0 1 2 3\n"),
+        ("a.json", json.dumps(TRIANGLE)),
+        ("a.svg", '<svg xmlns="http://www.w3.org/2000/svg"><line x2="9"/></svg>'),
+    ],
+)
+def test_a_mark_of_the_byte_order_is_no_part_of_a_file(tmp_path, name, text):
+    plain = read(written(tmp_path, name, text)).frame
+    assert read(written(tmp_path, name, b"\xef\xbb\xbf" + text.encode())).frame == plain
+
+
+def test_repairs_are_told_of_files_of_every_kind(tmp_path):
+    # Two bars that cross at (5, 0).
+    ends = [(0, 0), (9, 0), (5, -5), (5, 5)]
+    vertices = "".join(f"{x} {y} 0\n" for x, y in ends)
+    lines = "".join(
+        f'<line x1="{a}" y1="{b}" x2="{c}" y2="{d}"/>' for (a, b), (c, d) in (ends[:2], ends[2:])
+    )
+    files = {
+        "a.json": {"vertices": ends, "edges": [[0, 1], [2, 3]]},
+        "a.obj": "".join(f"v {row}\n" for row in vertices.splitlines()) + "l 1 2\nl 3 4\n",
+        "a.off": f"OFF\n6 2 0\n{vertices}0 -9 0\n0 9 0\n3 0 1 4\n3 2 3 5\n",
+        "a.svg": f'<svg xmlns="http://www.w3.org/2000/svg">{lines}</svg>',
+    }
+    document = ezdxf.new(units=4)
+    for start, end in (ends[:2], ends[2:]):
+        document.modelspace().add_line(start, end)
+    document.saveas(tmp_path / "a.dxf")
+    for name, content in files.items():
+        written(tmp_path, name, content)
+    for kind in READERS:
+        reading = Reading(scale=1.0, repair=kind in (".json", ".obj", ".off"))
+        assert "crossing split at (5, 0)" in read(tmp_path / f"a{kind}", reading).notes, kind
+    unknown = written(tmp_path, "b.obj", files["a.obj"] + "curv 0 1 1 2\n")
+    notes = read(unknown, Reading(repair=True, skip_unknown=True)).notes
+    assert notes == ("left out: 1 curv", "crossing split at (5, 0)")
+
+
 def test_off_gives_the_sides_of_faces(tmp_path):
     text = "OFF # any\n4 2 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n3 0 1 2\n3 0 2 3 255 0 0\n"
     frame = read(written(tmp_path, "a.off", text)).frame
@@ -224,6 +302,29 @@ def test_a_tilted_plane_is_laid_flat_the_shortest_way(tmp_path):
     text = f"v 0 0 0\nv 10 0 0\nv 10 {run} {rise}\nv 0 {run} {rise}\nf 1 2 3 4\n"
     frame = read(written(tmp_path, "a.obj", text)).frame
     assert frame.bounds == pytest.approx(np.array([[0, 0], [10, 10]]))
+
+
+@pytest.mark.parametrize("tilt", [-89, -60, 60, 89])
+def test_a_steep_plane_is_laid_flat_the_shortest_way(tmp_path, tilt):
+    # Turned about the x axis; seen from above it is shorter, and not turned over.
+    flat = np.array([[0, 0], [10, 0], [7, 4], [0, 12]])
+    up = math.radians(tilt)
+    lines = [f"v {x} {y * math.cos(up)} {y * math.sin(up)}\n" for x, y in flat.tolist()]
+    frame = read(written(tmp_path, "a.obj", "".join([*lines, "f 1 2 3 4\n"]))).frame
+    assert frame.vertices == pytest.approx(flat, abs=1e-9)
+
+
+def test_a_plane_of_many_vertices_is_read_in_a_moment(tmp_path):
+    corners = "".join(f"v {k % 200} {k // 200} {{z}}\n" for k in range(40_000))
+    sides = "".join(f"l {k} {k + 1}\n" for k in range(1, 40_000) if k % 200)
+    start = time.process_time()
+    for height in ("0", "1e-3"):
+        path = written(tmp_path, "a.obj", corners.format(z=height) + sides)
+        assert len(read(path, Reading(components=True)).frame.edges) == 200 * 199
+    tilted = "".join(f"v {k % 200} {k // 200} {k // 200}\n" for k in range(40_000)) + sides
+    frame = read(written(tmp_path, "a.obj", tilted), Reading(components=True)).frame
+    assert frame.bounds[1] - frame.bounds[0] == pytest.approx([199, 199 * math.sqrt(2)])
+    assert time.process_time() - start < 30.0
 
 
 def test_a_standing_plane_keeps_its_angles(tmp_path):

@@ -32,6 +32,9 @@ _COMPUTED, _PROVED = 0.2, 0.9
 #: About as many proofs as a joint has, and files as a kit.
 _PROOFS, _FILES = 12, 9
 
+#: A weave's file has at most this many bytes: its six numbers have some hundred.
+_LONGEST_WEAVE = 100_000
+
 #: What has no say in what is made.
 _NOT_MADE = ("frame", "output", "jobs", "dask", "no_cache", "as_json")
 
@@ -298,15 +301,19 @@ def _filled(request: Request, frame: str, options: Mapping[str, Any], length: fl
 def _weave(name: str) -> Any:  # noqa: ANN401  imported late: the import takes a while
     """The built-in weave of a name, or the one in a file."""
     from scadgen.joint.weave import BUILT_IN, Weave
+    from scadgen.readers.reading import read_regular
 
     if name in BUILT_IN:
         return BUILT_IN[name]
     path = Path(name)
     try:
-        entries = json.loads(path.read_text(encoding="utf-8"))
+        entries = json.loads(read_regular(path, _LONGEST_WEAVE))
     except OSError as error:
         msg = f"weave {name!r}: neither a file nor one of {', '.join(BUILT_IN)} ({error.strerror})"
         raise InputError(msg) from error
+    except InputError as error:
+        msg = f"weave {name!r}: {error}"
+        raise InputError(msg) from None
     except (ValueError, RecursionError) as error:
         msg = f"weave {name!r}: not a JSON file ({error})"
         raise InputError(msg) from error

@@ -17,6 +17,9 @@ __all__ = ["read_obj", "read_off"]
 #: OBJ's statements that say nothing of the shape.
 _SILENT = {"g", "mg", "mtllib", "o", "s", "usemtl", "vn", "vp", "vt"}
 
+#: A plane whose normal rises by no more than this stands upright, in radians: rounded decimals.
+_UPRIGHT = 1e-6
+
 
 def read_obj(path: Path, reading: Reading) -> Read:
     """Read a frame from a Wavefront OBJ file: sides of `f` and pieces of `l`, in mm.
@@ -45,7 +48,7 @@ def read_obj(path: Path, reading: Reading) -> Read:
         raise InputError(msg)
     notes = unknown(strange, reading)
     read = _graph(path.stem, vertices, chains, reading)
-    return Read(read.frame, notes)
+    return Read(read.frame, (*notes, *read.notes))
 
 
 def read_off(path: Path, reading: Reading) -> Read:
@@ -85,7 +88,7 @@ def read_off(path: Path, reading: Reading) -> Read:
 def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
     """Number and words of each line that has any."""
     try:
-        text = data.decode("utf-8")
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
         msg = "is not text"
         raise InputError(msg) from None
@@ -115,12 +118,14 @@ def _graph(
 
 def _flat(points: Floats, tolerance: float) -> Floats:
     """Points of a plane in that plane, turned to the horizontal the shortest way."""
-    middle = points.mean(axis=0)
-    axes = np.linalg.svd(points - middle, full_matrices=True)[2] if len(points) > 2 else np.eye(3)
-    normal = axes[2] * (1.0 if axes[2][np.abs(axes[2]).argmax()] > 0 else -1.0)
     if np.ptp(points[:, 2]) <= tolerance:
         return points[:, :2]
-    off = np.abs((points - middle) @ normal)
+    from_middle = points - points.mean(axis=0)
+    # The triangle of a QR decomposition has the same axes, and three rows at most.
+    normal = np.linalg.svd(np.linalg.qr(from_middle, mode="r"))[2][2]
+    up = 2 if abs(normal[2]) > _UPRIGHT else np.abs(normal).argmax()
+    normal = normal * (1.0 if normal[up] > 0 else -1.0)
+    off = np.abs(from_middle @ normal)
     if not off.max() <= tolerance:
         msg = (
             f"is not plane: a vertex is {off.max():.4g} mm off the plane of best fit, at most "

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import os
+import stat
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -17,7 +19,16 @@ from scadgen.frame.planarity import more, where
 from scadgen.frame.repair import MOST_SEGMENTS, TOLERANCE, repair
 from scadgen.solid.affine import Floats
 
-__all__ = ["Read", "Reading", "checked_scale", "from_graph", "from_segments", "load", "unknown"]
+__all__ = [
+    "Read",
+    "Reading",
+    "checked_scale",
+    "from_graph",
+    "from_segments",
+    "load",
+    "read_regular",
+    "unknown",
+]
 
 #: A file has at most this many bytes for each segment that is allowed: a DXF line with all
 #: its attributes has some 300.
@@ -75,6 +86,12 @@ class Reading:
         if self.scale is not None and not (math.isfinite(self.scale) and self.scale > 0):
             msg = f"scale = {self.scale!r}: must be a positive number of mm per unit"
             raise InputError(msg)
+        if not (math.isfinite(self.shortest) and self.shortest >= 0):
+            msg = f"shortest = {self.shortest!r}: must be at least 0 mm"
+            raise InputError(msg)
+        if not self.most >= 1:
+            msg = f"most = {self.most!r}: must be at least 1"
+            raise InputError(msg)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -99,20 +116,52 @@ def load(path: Path, reading: Reading) -> bytes:
     Raises
     ------
     InputError
-        It cannot be read, is empty, or longer than anything of the allowed size would be.
+        It cannot be read, is no regular file, is empty, or longer than anything of the allowed
+        size would be.
     """
     limit = _BYTES_EACH * reading.most
     try:
-        size = path.stat().st_size
-        if size > limit:
-            msg = f"{size} bytes: at most {limit} for {reading.most} segments; allow more of them"
-            raise InputError(msg)
-        data = path.read_bytes()
+        data = read_regular(path, limit, f" for {reading.most} segments; allow more of them")
     except OSError as error:
         msg = f"cannot be read: {error.strerror or error}"
         raise InputError(msg) from None
     if not data.strip():
         msg = "is empty"
+        raise InputError(msg)
+    return data
+
+
+def read_regular(path: Path, limit: int, why: str = "") -> bytes:
+    """The bytes of a regular file, or of one that a link leads to.
+
+    Parameters
+    ----------
+    path
+        The file.
+    limit
+        Most bytes that it may have.
+    why
+        What is said of the limit.
+
+    Raises
+    ------
+    OSError
+        It cannot be read, or is a folder.
+    InputError
+        It has more bytes, or is a device or a pipe.
+    """
+    mode = path.stat().st_mode
+    # A pipe may never begin, and a device never end.  Opening a folder says what it is.
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        msg = "is a device or a pipe: must be a regular file"
+        raise InputError(msg)
+    with path.open("rb") as file:
+        size = os.fstat(file.fileno()).st_size
+        # Some files have more in them than they say.
+        data = file.read(limit + 1) if size <= limit else b""
+    size = max(size, len(data))
+    if size > limit:
+        msg = f"{size} bytes: at most {limit}{why}"
         raise InputError(msg)
     return data
 
@@ -154,7 +203,7 @@ def from_segments(
         edges that are too short.
     """
     if not any(map(len, segments)):
-        msg = "there is nothing in it that could be an edge"
+        msg = "; ".join(["there is nothing in it that could be an edge", *notes[-1:]])
         raise InputError(msg)
     joined = np.concatenate(segments)
     repaired = repair(name, joined, reading.tolerance, split=reading.split, most=reading.most)
@@ -195,16 +244,8 @@ def _check(frame: Frame, reading: Reading) -> None:
     if len(frame.edges) > reading.most:
         msg = f"{len(frame.edges)} edges: at most {reading.most}, unless more are allowed (--most)"
         raise InputError(msg)
-    parts = int(frame.components.max()) + 1
-    if parts > 1 and not reading.components:
-        other = int(frame.components.argmax())
-        first = int((frame.components == frame.components[other]).argmax())
-        msg = (
-            f"{parts} parts that are not connected, one with {where(frame.vertices[0])}, one with "
-            f"{where(frame.vertices[first])}; connect them, where ends are repaired with a "
-            "larger --tolerance, or take them so (--components)"
-        )
-        raise InputError(msg)
+    if not reading.components:
+        _check_connected(frame)
     short = np.flatnonzero(frame.lengths < reading.shortest)
     if len(short):
         worst = int(frame.lengths.argmin())
@@ -215,3 +256,21 @@ def _check(frame: Frame, reading: Reading) -> None:
             f"missing{more(len(short))}"
         )
         raise InputError(msg)
+
+
+def _check_connected(frame: Frame) -> None:
+    part = frame.components[frame.edges[:, 0]]
+    lengths = np.bincount(part, frame.lengths)
+    if len(lengths) == 1:
+        return
+    # A curve has many edges and may be small; of equally small parts the last is told.
+    smallest = len(lengths) - 1 - int(lengths[::-1].argmin())
+    points = frame.vertices[frame.components == smallest]
+    count = np.count_nonzero(part == smallest)
+    msg = (
+        f"{len(lengths)} parts that are not connected, the smallest of {count} "
+        f"edge{'s' if count > 1 else ''} between "
+        f"{where(points.min(axis=0))} and {where(points.max(axis=0))}; connect them, by a larger "
+        "--tolerance where ends nearly meet, or allow it with --components"
+    )
+    raise InputError(msg)
