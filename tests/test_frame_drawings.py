@@ -101,6 +101,10 @@ def test_units_and_view_boxes_give_millimetres(svg):
     assert box(svg('<line x2="1in" y2="0"/>', page=""))[1][0] == 25.4
     uneven = 'width="96mm" height="48mm" viewBox="0 0 96 96" preserveAspectRatio="none"'
     assert box(svg('<rect width="96" height="96"/>', page=uneven)) == [[0, 0], [96, 48]]
+    for fit, length in (("xMidYMid", 48), ("xMinYMax meet", 48), ("xMidYMid slice", 96)):
+        page = uneven.replace('"none"', f'"{fit}"')
+        assert box(svg(line, page=page))[1][0] == length
+    assert box(svg(line, page=uneven.replace('"none"', '"none slice"')))[1][0] == 96
 
 
 def test_transforms_work_from_the_inside_out(svg):
@@ -177,6 +181,36 @@ def test_a_use_is_what_it_shows_where_it_stands(svg):
     assert (len(result.frame.vertices), len(result.frame.edges)) == (8, 10)
 
 
+def test_a_used_symbol_is_what_is_in_it(svg):
+    body = (
+        '<symbol id="tile" display="none"><rect width="10" height="10"/><path d="M0 0L10 10"/>'
+        '</symbol><use href="#tile"/><use href="#tile" x="10" transform="translate(0 0)"/>'
+    )
+    result = svg(body)
+    assert (len(result.frame.vertices), len(result.frame.edges)) == (6, 9)
+    assert result.notes == ("segment (10, 90) to (10, 100) was there 2 times",)
+
+
+@pytest.mark.parametrize(
+    ("target", "said"),
+    [
+        ('<symbol id="a" viewBox="0 0 1 1"><line x2="5"/></symbol>', "used symbol with viewBox"),
+        ('<symbol id="a" refX="4"><line x2="5"/></symbol>', "used symbol with refX"),
+        ('<clipPath id="a"><line x2="5"/></clipPath>', "used clipPath"),
+        ('<pattern id="a"><line x2="5"/></pattern>', "used pattern"),
+        ('<x xmlns="editor" id="a"/>', "used foreign element"),
+        ('<text id="a">t</text>', "2 text"),
+    ],
+)
+def test_what_is_used_and_not_understood_is_told(svg, target, said):
+    body = f'<line x2="9"/>{target}<use href="#a"/>'
+    with pytest.raises(InputError, match=f"{said}: cannot be part of a frame; --skip-unknown"):
+        svg(body)
+    result = svg(body, Reading(skip_unknown=True))
+    assert len(result.frame.edges) == 1
+    assert said in result.notes[0]
+
+
 def test_crossing_lines_are_joined_and_told(svg):
     result = svg('<path d="M0 0L10 10M0 10L10 0"/>')
     assert len(result.frame.edges) == 4
@@ -230,6 +264,13 @@ def test_svg_that_is_no_frame_is_refused(svg, body, said):
 def test_view_boxes_that_are_none_are_refused(svg, box):
     with pytest.raises(InputError, match="viewBox"):
         svg('<line x2="5"/>', page=f'viewBox="{box}"')
+
+
+@pytest.mark.parametrize("size", ['width="0"', 'height="-5mm"', 'width="9" height="0mm"'])
+def test_pages_without_a_size_are_refused_in_one_line(svg, size):
+    with pytest.raises(InputError, match=r"(width|height) = '(0|-5mm|0mm)': must be above 0") as e:
+        svg('<line x2="5"/>', page=f'{size} viewBox="0 0 9 9"')
+    assert "\n" not in str(e.value)
 
 
 LAUGHS = "".join(f'<!ENTITY l{n} "{f"&l{n - 1};" * 10}">' for n in range(1, 10))
@@ -391,6 +432,48 @@ def test_dxf_unknown_entities_are_listed_and_skipped_if_asked(dxf):
     with pytest.raises(InputError, match="1 POINT, 2 TEXT: cannot be part of a frame"):
         dxf(draw)
     assert dxf(draw, Reading(skip_unknown=True)).notes == ("left out: 1 POINT, 2 TEXT",)
+
+
+def test_dxf_entities_that_are_not_shown_are_left_out_and_told(dxf):
+    def draw(space):
+        layers = space.doc.layers
+        layers.add("Off").off()
+        layers.add("Frozen").freeze()
+        layers.add("Locked").lock()
+        space.add_line((0, 0), (9, 0), {"layer": "locked"})
+        space.add_line((0, 0), (0, 9), {"layer": "nowhere"})
+        space.add_line((0, 0), (5, 5), {"layer": "off"})
+        space.add_text("note", dxfattribs={"layer": "Frozen"})
+        space.add_circle((0, 0), 3, {"invisible": 1})
+
+    result = dxf(draw)
+    assert result.frame.vertices.tolist() == [[0, 0], [9, 0], [0, 9]]
+    what = "entities that are invisible, or on layers that are off or frozen, left out"
+    assert result.notes == (f"{what}: 3",)
+    with pytest.raises(InputError, match=f"nothing in it that could be an edge; {what}: 1$"):
+        dxf(lambda space: space.add_line((0, 0), (9, 0), {"invisible": 1}))
+
+
+@pytest.mark.parametrize("kind", ["add_polyline2d", "add_polyline3d"])
+def test_dxf_splines_are_the_points_on_them(dxf, kind):
+    # As it is drawn, a corner at (5, 5) that the curve does not reach stands among the others.
+    def draw(space):
+        points = [(0, 0, 0), (0, 0, 0), (2, 1.6, 0), (5, 5, 0), (8, 1.6, 0), (10, 0, 0)]
+        spline = getattr(space, kind)(points)
+        spline.dxf.flags |= 4
+        for vertex, flags in zip(spline.vertices, (16, 8, 8, 16, 8, 8), strict=True):
+            vertex.dxf.flags |= flags
+
+    assert dxf(draw).frame.vertices.tolist() == [[0, 0], [10, 0], [2, 1.6], [8, 1.6]]
+
+
+def test_dxf_polylines_without_points_are_nothing(dxf):
+    def draw(space):
+        space.add_line((0, 0), (9, 0))
+        space.add_lwpolyline([])
+        space.add_polyline2d([])
+
+    assert len(dxf(draw).frame.edges) == 1
 
 
 def test_dxf_meshes_are_no_polylines(dxf):

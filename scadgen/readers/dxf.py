@@ -50,7 +50,8 @@ def read_dxf(path: Path, reading: Reading) -> Read:
     strange: Counter[str] = Counter()
     lines: list[Floats] = []
     most = reading.most
-    for entity in document.modelspace():
+    shown = _shown(document)
+    for entity in shown:
         kind = entity.dxftype()
         if kind not in _KNOWN or _is_mesh(entity):
             strange[kind] += 1
@@ -59,7 +60,7 @@ def read_dxf(path: Path, reading: Reading) -> Read:
         most -= max(len(points) - 1, 0)
         check_count(most)
         lines.append(points * [scale, scale, 1.0])
-    notes = (*complaints.lines, *unknown(strange, reading))
+    notes = (*complaints.lines, *unknown(strange, reading), *_unseen(document, len(shown)))
     _check_flat(lines)
     segments = [np.stack([line[:-1, :2], line[1:, :2]], axis=1) for line in lines]
     return from_segments(path.stem, segments, reading, notes)
@@ -106,6 +107,25 @@ def _unit(document: Drawing) -> float:
         return 1.0
 
 
+def _shown(document: Drawing) -> list[DXFGraphic]:
+    """What is seen of the model space: on layers that are neither off nor frozen."""
+    layers = document.layers
+    hidden = {layers.key(one.dxf.name) for one in layers if one.is_off() or one.is_frozen()}
+    return [
+        entity
+        for entity in document.modelspace()
+        # What ezdxf does not know has no such attribute, and may have a layer all the same.
+        if not (entity.dxf.hasattr("invisible") and entity.dxf.invisible)
+        and layers.key(entity.graphic_properties().get("layer", "0")) not in hidden
+    ]
+
+
+def _unseen(document: Drawing, shown: int) -> tuple[str, ...]:
+    count = len(document.modelspace()) - shown
+    what = "entities that are invisible, or on layers that are off or frozen, left out"
+    return (f"{what}: {count}",) if count else ()
+
+
 def _is_mesh(entity: DXFGraphic) -> bool:
     """Whether a POLYLINE is none, but the faces of a mesh."""
     from ezdxf.entities.polyline import Polyline
@@ -126,7 +146,7 @@ def _checked_points(entity: DXFGraphic, within: float, most: int) -> Floats:
 def _points(entity: DXFGraphic, within: float, most: int) -> Floats:
     """An entity as a polyline, ``(k, 3) float``."""
     from ezdxf.entities.lwpolyline import LWPolyline
-    from ezdxf.entities.polyline import Polyline
+    from ezdxf.entities.polyline import DXFVertex, Polyline
 
     kind = entity.dxftype()
     if kind == "LINE":
@@ -136,7 +156,11 @@ def _points(entity: DXFGraphic, within: float, most: int) -> Floats:
         height = float(entity.dxf.elevation)
         return _placed(entity, _bulged(_closed(rows, entity.closed), within, most), height)
     if isinstance(entity, Polyline):
-        corners = [(*v.dxf.location, v.dxf.get("bulge", 0.0)) for v in entity.vertices]
+        # The points that a spline was drawn with stand among those that are on it.
+        drawn = [
+            v for v in entity.vertices if not v.dxf.flags & DXFVertex.SPLINE_FRAME_CONTROL_POINT
+        ]
+        corners = [(*v.dxf.location, v.dxf.get("bulge", 0.0)) for v in drawn]
         rows = _closed(np.array(corners, dtype=float).reshape(-1, 4), entity.is_closed)
         if entity.is_3d_polyline:
             return rows[:, :3]
@@ -154,7 +178,8 @@ def _points(entity: DXFGraphic, within: float, most: int) -> Floats:
 def _placed(entity: DXFGraphic, points: Floats, height: float) -> Floats:
     """Points of an entity's own plane in space."""
     lifted = np.column_stack([points, np.full(len(points), height)])
-    return np.array([tuple(p) for p in entity.ocs().points_to_wcs(map(_vector, lifted))])
+    placed = [tuple(p) for p in entity.ocs().points_to_wcs(map(_vector, lifted))]
+    return np.array(placed, dtype=float).reshape(-1, 3)
 
 
 def _vector(point: Floats) -> Vec3:

@@ -52,6 +52,9 @@ _UNSEEN = {
     "title",
 }
 
+#: Attributes by which a symbol is fitted to where it is used, which is not done here.
+_FITTED = {"viewBox", "refX", "refY"}
+
 #: Uses of uses go this deep; deeper ones go in circles.
 _DEEPEST_USE = 8
 
@@ -121,16 +124,26 @@ def _page(root: Element, reading: Reading) -> Floats:
         raise InputError(msg)
     x, y, width, height = corner_and_size
     sizes = [
-        length(name, root.get(name) or "", absolute=True) / extent
+        _size(name, root.get(name) or "") / extent
         for name, extent in (("width", width), ("height", height))
         if not (root.get(name) or "%").strip().endswith("%")
     ]
     if reading.scale is not None or not sizes:
         sizes = [checked_scale(reading, PIXEL)]
-    if (root.get("preserveAspectRatio") or "").strip() != "none":
-        sizes = [min(sizes)]
+    fit = (root.get("preserveAspectRatio") or "").split()
+    if "none" not in fit:
+        sizes = [max(sizes) if "slice" in fit else min(sizes)]
     right, up = sizes[0], sizes[-1]
     return np.array([[right, 0.0, -right * x], [0.0, -up, up * (y + height)], [0.0, 0.0, 1.0]])
+
+
+def _size(name: str, text: str) -> float:
+    """A width or height of the page, in mm."""
+    size = length(name, text, absolute=True)
+    if not size > 0:
+        msg = f"{name} = {text[:60]!r}: must be above 0"
+        raise InputError(msg)
+    return size
 
 
 def _walk(root: Element, page: Floats, drawing: _Drawing) -> None:
@@ -147,7 +160,7 @@ def _walk(root: Element, page: Floats, drawing: _Drawing) -> None:
         if kind in _GROUPS and (element is root or kind != "svg"):
             stack.extend((child, matrix, depth) for child in reversed(element))
         elif kind == "use":
-            stack.append(_used(element, matrix, depth, drawing))
+            stack.extend(_used(element, matrix, depth, drawing))
         elif kind in _SHAPES:
             for points in _outline(kind, element, matrix, drawing):
                 turned = points @ matrix[:2, :2].T + matrix[:2, 2]
@@ -171,8 +184,8 @@ def _hidden(element: Element) -> bool:
 
 def _used(
     element: Element, matrix: Floats, depth: int, drawing: _Drawing
-) -> tuple[Element, Floats, int]:
-    """What a use shows, and where."""
+) -> list[tuple[Element, Floats, int]]:
+    """What a use shows, and where; the last first."""
     link = element.get("href") or element.get(_HREF) or ""
     target = drawing.by_id.get(link.removeprefix("#"))
     if not link.startswith("#") or target is None:
@@ -183,7 +196,16 @@ def _used(
         raise InputError(msg)
     move = np.eye(3)
     move[:2, 2] = [length(n, element.get(n) or "0") for n in ("x", "y")]
-    return target, matrix @ move, depth + 1
+    matrix = matrix @ move
+    kind = _kind(target)
+    if kind is not None and kind not in _UNSEEN:
+        return [(target, matrix, depth + 1)]
+    fitted = sorted(_FITTED & set(target.attrib))
+    if kind != "symbol" or fitted:
+        drawing.strange[" with ".join([f"used {kind or 'foreign element'}", *fitted[-1:]])] += 1
+        return []
+    matrix = matrix @ transform(target.get("transform") or "")
+    return [(child, matrix, depth + 1) for child in reversed(target)]
 
 
 def _outline(kind: str, element: Element, matrix: Floats, drawing: _Drawing) -> list[Floats]:
