@@ -263,11 +263,11 @@ def test_outlines_are_typed_as_corners(run, said):
     square = said("square", "--edge-length", 20, "--outline", "0,0 100,0 100,60 0,60")
     assert square["bounds"] == [[0, 0], [100, 60]]
     # 5 x 3 squares.
-    assert (square["vertices"], square["edges"], square["tiles"]) == (24, 38, 15)
+    assert (square["vertices"], square["edges"], square["faces"]) == (24, 38, 15)
     words = ("--edge-length", 20, "--outline", "0,0 119,0 119,79 0,79")
     # Tiles are whole: the rest of the outline stays empty.
-    assert said("square", *words)["tiles"] == 15
-    assert run("square", *words)[1].startswith("square: 24 vertices, 38 edges around 15 tiles, ")
+    assert said("square", *words)["faces"] == 15
+    assert run("square", *words)[1].startswith("square: 24 vertices, 38 edges around 15 faces, ")
 
 
 def test_the_list_names_all(run, said):

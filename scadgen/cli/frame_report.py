@@ -57,7 +57,7 @@ def report(
         "edges": len(frame.edges),
         "parts": parts,
         # Euler's formula, without the one around them all.
-        "tiles": len(frame.edges) - len(frame.vertices) + parts,
+        "faces": len(frame.edges) - len(frame.vertices) + parts,
         "bounds": frame.bounds.tolist(),
         "notes": list(notes),
         "snap": snapped and _snap(snapped),
@@ -129,9 +129,9 @@ def show(said: dict[str, Any]) -> None:
     """Print what `report` gives."""
     (left, low), (right, high) = said["bounds"]
     parts = f" in {said['parts']} parts" if said["parts"] > 1 else ""
-    tiles = f" around {counted(said['tiles'], 'tile')}" if said["tiles"] else ""
+    faces = f" around {counted(said['faces'], 'face')}" if said["faces"] else ""
     click.echo(
-        f"{said['name']}: {said['vertices']} vertices, {counted(said['edges'], 'edge')}{tiles}"
+        f"{said['name']}: {said['vertices']} vertices, {counted(said['edges'], 'edge')}{faces}"
         f"{parts}, {right - left:.6g} x {high - low:.6g} mm from ({left:.6g}, {low:.6g})"
     )
     _lines(said["notes"])

@@ -10,10 +10,13 @@ import numpy as np
 from scadgen.errors import InputError
 from scadgen.solid.affine import Floats
 
-__all__ = ["arc", "check_count", "polyline"]
+__all__ = ["arc", "check_count", "flattened", "is_curved", "polyline"]
 
 #: Coordinates of curves go up to this, in the units of the drawing: their squares are numbers.
 _LARGEST = 1e12
+
+#: The curves of svgelements.
+_CURVES = ("Arc", "CubicBezier", "QuadraticBezier")
 
 
 def arc(radius: float, first: float, sweep: float, within: float, most: int) -> Floats:
@@ -77,6 +80,25 @@ def polyline(path: Any, within: float, most: int) -> list[Floats]:  # noqa: ANN4
             lines[-1].append(np.asarray(piece.npoint(shares)))
         lines[-1].append(end)
     return [np.concatenate(line) for line in lines]
+
+
+def is_curved(path: Any) -> bool:  # noqa: ANN401 -- as above
+    """Whether a path of svgelements has curves."""
+    return any(type(piece).__name__ in _CURVES for piece in path)
+
+
+def flattened(shapes: int, segments: int, within: float) -> tuple[str, ...]:
+    """Note how many shapes with curves became how many segments, if any did.
+
+    These are as short as their distance from the curves asks for, in mm, however large the drawing.
+    """
+    if not shapes:
+        return ()
+    note = (
+        f"shapes with curves: {shapes}, now {segments} segments within {within:g} mm of them; "
+        "a larger --flatten makes fewer and longer ones"
+    )
+    return (note,)
 
 
 def check_count(left: float) -> None:

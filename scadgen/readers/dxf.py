@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from scadgen.errors import InputError
-from scadgen.readers.curves import arc, check_count
+from scadgen.readers.curves import arc, check_count, flattened
 from scadgen.readers.reading import Read, Reading, checked_scale, from_segments, load, unknown
 from scadgen.solid.affine import Floats
 
@@ -49,7 +49,7 @@ def read_dxf(path: Path, reading: Reading) -> Read:
     scale = checked_scale(reading, _unit(document) if has_unit else 1.0)
     strange: Counter[str] = Counter()
     lines: list[Floats] = []
-    most = reading.most
+    most, curved = reading.most, []
     shown = _shown(document)
     for entity in shown:
         kind = entity.dxftype()
@@ -60,7 +60,14 @@ def read_dxf(path: Path, reading: Reading) -> Read:
         most -= max(len(points) - 1, 0)
         check_count(most)
         lines.append(points * [scale, scale, 1.0])
-    notes = (*complaints.lines, *unknown(strange, reading), *_unseen(document, len(shown)))
+        if kind in ("ARC", "CIRCLE") or getattr(entity, "has_arc", False):
+            curved.append(len(points) - 1)
+    notes = (
+        *complaints.lines,
+        *unknown(strange, reading),
+        *_unseen(document, len(shown)),
+        *flattened(len(curved), sum(curved), reading.flatten),
+    )
     _check_flat(lines)
     segments = [np.stack([line[:-1, :2], line[1:, :2]], axis=1) for line in lines]
     return from_segments(path.stem, segments, reading, notes)

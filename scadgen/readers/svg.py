@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from scadgen.errors import InputError
-from scadgen.readers.curves import polyline
+from scadgen.readers.curves import flattened, is_curved, polyline
 from scadgen.readers.reading import Read, Reading, checked_scale, from_segments, load, unknown
 from scadgen.readers.svg_text import PIXEL, length, lengths, numbers, transform
 from scadgen.solid.affine import Floats
@@ -67,6 +67,9 @@ class _Drawing:
     strange: Counter[str] = field(default_factory=Counter)
     count: int = 0
     visited: int = 0
+    #: Shapes with curves, and their segments.
+    curved: int = 0
+    chords: int = 0
 
     def count_in(self, *, segments: int = 0, elements: int = 0) -> None:
         """Stop before a drawing that repeats itself fills the memory."""
@@ -93,7 +96,8 @@ def read_svg(path: Path, reading: Reading) -> Read:
     by_id = {key: e for e in root.iter() if (key := e.get("id")) is not None}
     drawing = _Drawing(reading, by_id)
     _walk(root, _page(root, reading), drawing)
-    notes = unknown(drawing.strange, reading)
+    curves = flattened(drawing.curved, drawing.chords, reading.flatten)
+    notes = (*unknown(drawing.strange, reading), *curves)
     return from_segments(path.stem, drawing.segments, reading, notes)
 
 
@@ -227,7 +231,11 @@ def _outline(kind: str, element: Element, matrix: Floats, drawing: _Drawing) -> 
             raise InputError(msg)
         within = drawing.reading.flatten / stretch
         most = drawing.reading.most - drawing.count
-        lines = polyline(_curve(kind, element), within, most)
+        path = _curve(kind, element)
+        lines = polyline(path, within, most)
+        if is_curved(path):
+            drawing.curved += 1
+            drawing.chords += sum(len(line) - 1 for line in lines)
     drawing.count_in(segments=sum(max(len(line) - 1, 0) for line in lines))
     return [line for line in lines if len(line) > 1]
 
