@@ -136,7 +136,7 @@ def test_transforms_work_from_the_inside_out(svg):
 def test_a_circle_is_a_polygon_within_the_tolerance(svg, flatten, shape):
     found = svg(shape, Reading(flatten=flatten))
     frame = found.frame
-    told = r"shapes with curves: 1, now (\d+) segments within ([\d.]+) mm of them; a larger --flatten"
+    told = r"shapes with curves: 1, now (\d+) segments within ([\d.]+) mm of them; a larger --flat"
     count, within = re.match(told, found.notes[0]).groups()
     assert float(within) == flatten
     # That which closes the outline may have no length, nor the straight sides of the rectangle.
