@@ -1,5 +1,7 @@
 """Kinds of joints: caps at the rim, and keys that let a frame be put together."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -180,6 +182,20 @@ def test_a_tiling_has_the_keys_and_parts_reasoned_out_by_hand(name):
     assert {len(kind.keys) for kind in kinds.kinds} == {keys}
     assert len(kinds.kinds) == joints
     assert element_count(frame, kinds) == elements
+
+
+@pytest.mark.parametrize("name", ["3.4.6.4", "cairo"])
+def test_a_drawing_has_the_same_kinds_however_it_is_turned(name):
+    # Three decimals change directions a little, so that no fixed steps of an angle tell them apart.
+    frame = named(name, rows=2, columns=2)
+    found = set()
+    for degrees in (0, 19, 30, 79):
+        c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+        points = (frame.vertices @ np.array([[c, s], [-s, c]])).round(3)
+        kinds = kinds_of(make_frame(name, points, frame.edges))
+        keys = sum(len(kinds.kinds[number].keys) for number in kinds.kind_of)
+        found.add((len(kinds.kinds), keys))
+    assert len(found) == 1
 
 
 #: The duals by cell, which shifts repeat: how many joints of how many edges there are, each kind
