@@ -182,8 +182,8 @@ def test_a_grid_that_is_made_as_other_frames_are_is_told(run, tmp_path):
     assert code == 0
     assert load(tmp_path / "open").rows == 0
     assert out.startswith(
-        "note: with --snap and --rim this square frame is made as other frames are: 3 x 3 cells "
-        "unless said, loose pegs, and no rows and columns to set later\n"
+        "note: with --snap and --rim this square frame is made as other frames are: its pegs are "
+        "loose unless --key is given, and its rows and columns cannot be set later\n"
     )
     assert "note" not in run(*words, "-o", tmp_path / "grid")[1]
 
