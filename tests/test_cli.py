@@ -183,7 +183,7 @@ def test_a_grid_that_is_made_as_other_frames_are_is_told(run, tmp_path):
     assert load(tmp_path / "open").rows == 0
     assert out.startswith(
         "note: with --snap and --rim this square frame is made as other frames are: its pegs are "
-        "loose unless --key is given, and its rows and columns cannot be set later\n"
+        "loose, and its rows and columns cannot be set later\n"
     )
     assert "note" not in run(*words, "-o", tmp_path / "grid")[1]
 
@@ -351,6 +351,13 @@ BAD_KITS = [
     ("ladder", ("--rim", "round"), "rim = 'round': must be one of caps, open"),
     ("ladder", ("--weave", "4-loose"), "weave 4-loose: each joint of this frame has one of its"),
     ("ladder", ("--radius", "9"), "frame ladder: no option --radius; it has "),
+    ("hexagonal", ("--radius", "100", "--side", "0"), "side = 0 mm: must be 5 to 100 mm"),
+    ("hexagonal", ("--radius", "55"), "its joints need edges of 90 mm, and no tile with such"),
+    (
+        "rectangular",
+        ("--radius", "200", "--edge-length", "60"),
+        "frame rectangular: --edge-length and --radius: give one of them",
+    ),
     ("hexagonal", ("--key", "glued"), "key = 'glued': must be one of fixed, loose"),
     ("hexagonal", ("--detail", "ultra"), "detail = 'ultra': must be one of draft, standard, fine"),
     ("hexagonal", ("--rows", "0"), "rows = 0: must be a whole number from 1 to 100"),

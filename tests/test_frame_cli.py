@@ -158,6 +158,17 @@ def test_a_kit_stays_in_its_circle_whatever_the_length_of_its_edges(name, side, 
     assert shortest >= 6 * side - 1e-6
 
 
+def test_rectangles_in_a_circle_are_as_large_as_is_said(tmp_path):
+    size = ["--width", "90", "--height", "120"]
+    words = ["rectangular", "--radius", "300", *size, "--detail", "draft", "--unchecked"]
+    with pytest.raises(SystemExit) as ended:
+        main(["kit", *words, "-o", str(tmp_path / "kit")])
+    assert ended.value.code == 0
+    graph = load(tmp_path / "kit").graph
+    assert np.linalg.norm(graph.vertices, axis=1).max() <= 300 + 1e-6
+    assert set(graph.lengths.round(6)) == {90, 120}
+
+
 def test_with_a_side_it_says_how_far_across_joints_are(run, said):
     words = ("ring", "--sides", 4, "--edge-length", 100)
     (joint,) = said(*words, "--ring-ratio", 2.5, "--side", 8)["kinds_of_joints"]

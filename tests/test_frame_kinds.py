@@ -198,6 +198,21 @@ def test_a_drawing_has_the_same_kinds_however_it_is_turned(name):
     assert len(found) == 1
 
 
+def test_a_path_has_the_same_kinds_however_it_is_turned():
+    # Its only face is the outer one, and has no area but for rounding.
+    path = np.array([[0, 0], [0, 120], [0, 240], [-120, 240]])
+    found = set()
+    for degrees in range(0, 360, 15):
+        c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+        frame = make_frame("path", path @ np.array([[c, s], [-s, c]]), [[0, 1], [1, 2], [2, 3]])
+        kinds = kinds_of(frame)
+        counts = np.bincount(kinds.kind_of).tolist()
+        gaps = [kinds.shape(number).gaps.min() for number in range(len(kinds.kinds))]
+        found.add((*np.degrees(gaps).round(6).tolist(), *counts))
+    # The bend, and three straight joints: at its ends with a cap.
+    assert found == {(90, 180, 1, 3)}
+
+
 #: The duals by cell, which shifts repeat: how many joints of how many edges there are, each kind
 #: of face of the tiling making one kind of joint; and how many keys each has.
 #:

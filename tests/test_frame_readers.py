@@ -167,6 +167,8 @@ def test_devices_and_pipes_are_refused_at_once_and_links_to_files_read(tmp_path,
 def test_no_more_is_read_of_a_file_than_it_may_have(tmp_path):
     path = written(tmp_path, "any.json", b"x" * 100)
     assert read_regular(path, 100) == b"x" * 100
+    # Nor is memory taken for what it might have.
+    assert read_regular(path, 10**20) == b"x" * 100
     with pytest.raises(InputError, match=r"^100 bytes: at most 99, so far$"):
         read_regular(path, 99, ", so far")
     # It says that it has no bytes.

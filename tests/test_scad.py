@@ -226,6 +226,12 @@ def test_one_joint_is_laid_out_to_print_first(kit, file, tmp_path):
     boxes = shell_boxes(*read_stl(tmp_path / "plate.stl"))
     assert len(boxes) == len(kit.joints[0].pieces)
     assert np.allclose(boxes[:, 0, 2], 0, atol=1e-5)
+    # All of it or nothing, whichever plate of the frame was looked at before.
+    draw(file, tmp_path / "again.stl", part="joint_plate", plate_number=2)
+    assert (tmp_path / "again.stl").read_bytes() == (tmp_path / "plate.stl").read_bytes()
+    largest = math.ceil((boxes[:, 1] - boxes[:, 0]).max()) + 1
+    with pytest.raises(ToolError, match="one joint: does not fit on the bed"):
+        draw(file, tmp_path / "plate.stl", part="joint_plate", bed=[largest, largest])
 
 
 def shell_boxes(points, triangles):

@@ -157,7 +157,7 @@ def _show(kit: Kit) -> None:
         for line in needed
     ]
     header = ("no.", "part", "count", "spares", "cm3 each", "g each", "g all")
-    table((*header, *(("time each", "time all", "filament g") if kit.slicing else ())), rows)
+    table((*header, *(("time each", "time all", "filament g each") if kit.slicing else ())), rows)
     solid = sum(line.count * line.mass for line in needed)
     pieces = sum(line.count for line in needed)
     click.echo(f"{pieces} pieces, without spares: {solid:.0f} g of {kit.material} printed solid")

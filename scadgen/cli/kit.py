@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import json
-import re
 import shlex
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from scadgen.cli.console import Bar, counted, progress
-from scadgen.cli.frame_source import is_grid, load_frame, option, source_options
-from scadgen.errors import InputError
+from scadgen.cli.frame_source import source_options
+from scadgen.cli.kit_request import kit_request
 
 if TYPE_CHECKING:
     from scadgen.kit.build import Request
@@ -23,17 +22,12 @@ if TYPE_CHECKING:
 
 __all__ = ["kit"]
 
-#: Options of named frames that say how large one is, and how large what it fills is, in mm.
-_SIZES, _AREAS = {"width", "height", "bay_length"}, {"radius", "outline"}
-
 #: Shares of the time after which a joint is computed, and proved.
 _COMPUTED, _PROVED = 0.2, 0.9
 
 #: About as many proofs as a joint has, and files as a kit.
 _PROOFS, _FILES = 12, 9
 
-#: A weave's file has at most this many bytes: its six numbers have some hundred.
-_LONGEST_WEAVE = 100_000
 
 #: What has no say in what is made.
 _NOT_MADE = ("frame", "output", "jobs", "dask", "no_cache", "as_json")
@@ -167,7 +161,7 @@ def kit(
     from scadgen.work.each import Means
 
     material = check_material(material)
-    request, notes = _request(frame, options)
+    request, notes = kit_request(frame, options, {name for name, *_ in _LENGTHS}, _command())
     folder = output or Path(request.frame)
     check_folder(folder)
     told: list[str] = []
@@ -223,101 +217,6 @@ def _say(made: Kit, folder: Path, notes: Sequence[str]) -> None:
         click.echo(f"  {number:4d} {part}")
     place = shlex.quote(click.format_filename(folder))
     click.echo(f"next: scadgen render {place}, or make -C {place} -j2")
-
-
-def _request(frame: str, options: dict[str, Any]) -> tuple[Request, tuple[str, ...]]:
-    """What kit to make, and what was repaired of the frame it is for."""
-    from scadgen.kit.build import Request
-
-    lengths = {name for name, *_ in _LENGTHS}
-    own = {"rows", "columns", "key", "rim", "detail", "weave", *lengths}
-    values = {n: v for n, v in options.items() if n in lengths and v is not None}
-    weave = _weave(options["weave"]) if options["weave"] is not None else None
-    # A length of 0 is given, and wrong, though it equals False.
-    of_frame = {
-        n: v for n, v in options.items() if n not in own and v is not None and v is not False
-    }
-    detail, rim, command = options["detail"], options["rim"], _command()
-    rows, columns = options["rows"], options["columns"]
-    if is_grid(frame, of_frame) and rim == "caps":
-        rows, columns = (2 if count is None else count for count in (rows, columns))
-        key = options["key"] or "fixed"
-        return Request(frame, key, rows, columns, detail, weave, values, command), ()
-    from scadgen.frame.catalogue import ALIASES, NAMES
-
-    cells = {"rows": rows, "columns": columns}
-    of_frame |= {n: v for n, v in cells.items() if v is not None}
-    family = NAMES.get(ALIASES.get(frame, frame))
-    if family is not None and "edge_length" in family.options and "edge_length" in values:
-        of_frame["edge_length"] = values["edge_length"]
-    read = load_frame(frame, of_frame)
-    name = re.sub(r"[^A-Za-z0-9.-]+", "_", frame if family else Path(frame).stem).strip("._-")
-    request = Request(
-        "frame" if name.lower() in ("", "kit") else name,
-        options["key"] or "loose",
-        0,
-        0,
-        detail,
-        weave,
-        values,
-        command,
-        read.frame,
-        rim,
-        resizable=family is not None and not of_frame.keys() & (_SIZES | _AREAS),
-    )
-    if of_frame.keys() & _AREAS and "edge_length" not in values:
-        shortest = float(read.frame.lengths.min())
-        request = _filled(request, frame, of_frame, shortest)
-    plain = _plain(frame, [*of_frame, *(["rim"] if rim != "caps" else [])])
-    return request, (*plain, *read.notes)
-
-
-def _plain(frame: str, given: Sequence[str]) -> tuple[str, ...]:
-    """A note that a grid is made as other frames are, if it is one, with the options given."""
-    if not is_grid(frame, ()):
-        return ()
-    causes = " and ".join(option(name) for name in given if not is_grid(frame, [name]))
-    note = (
-        f"with {causes} this {frame} frame is made as other frames are: its pegs are loose "
-        "unless --key is given, and its rows and columns cannot be set later"
-    )
-    return (note,)
-
-
-def _filled(request: Request, frame: str, options: Mapping[str, Any], length: float) -> Request:
-    """The same with an area that is filled with cells as large as their joints need."""
-    from scadgen.kit.any_frame import growth
-
-    scale = growth(request)
-    while True:
-        length = round(length * scale, 6)
-        read = load_frame(frame, {**options, "edge_length": length})
-        request = replace(request, graph=read.frame)
-        scale = growth(request)
-        if scale < 1 + 1e-6:
-            return request
-
-
-def _weave(name: str) -> Any:  # noqa: ANN401  imported late: the import takes a while
-    """The built-in weave of a name, or the one in a file."""
-    from scadgen.joint.weave import BUILT_IN, Weave
-    from scadgen.readers.reading import read_regular
-
-    if name in BUILT_IN:
-        return BUILT_IN[name]
-    path = Path(name)
-    try:
-        entries = json.loads(read_regular(path, _LONGEST_WEAVE))
-    except OSError as error:
-        msg = f"weave {name!r}: neither a file nor one of {', '.join(BUILT_IN)} ({error.strerror})"
-        raise InputError(msg) from error
-    except InputError as error:
-        msg = f"weave {name!r}: {error}"
-        raise InputError(msg) from None
-    except (ValueError, RecursionError) as error:
-        msg = f"weave {name!r}: not a JSON file ({error})"
-        raise InputError(msg) from error
-    return Weave.from_dict(entries, path.stem)
 
 
 def _command() -> str:

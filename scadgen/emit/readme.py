@@ -67,6 +67,7 @@ def readme(kit: Kit) -> str:
         others=[f"`{name}`" for name in kit.parts if name not in asked],
         joints=[_joint(kit, one) for one in kit.joints],
         grid=kit.rows > 0,
+        caps=any(place.role == "cap" for place in kit.placements),
         halves=_halves(kit),
         lopsided=not lopsided(kit).isdisjoint(asked),
         second_shapes=[f"`{name}`" for name in asked if name.endswith("_over")],

@@ -172,7 +172,12 @@ def _at_rim(frame: Frame) -> NDArray[np.bool_]:
     first, second = frame.vertices[vertex], frame.vertices[ends.neighbour]
     area = np.bincount(face, first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0], faces)
     at_rim = np.zeros(len(frame.vertices), dtype=bool)
-    at_rim[vertex[area[face] <= 0]] = True
+    # It goes around the outer face of a component the other way, which is alone in a tree.
+    component = np.empty(faces, dtype=np.int64)
+    component[face] = frame.components[vertex]
+    order = np.lexsort((area, component))
+    outer = order[np.unique(component[order], return_index=True)[1]]
+    at_rim[vertex[np.isin(face, outer)]] = True
     return at_rim
 
 

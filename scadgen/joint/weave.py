@@ -161,9 +161,9 @@ def any_joint(least_gap: float) -> Weave:
     """The weave of joints whose gaps differ; see ``docs/geometry.md``, "Any joint".
 
     The ring is so wide that the smallest gap, or 90 degrees, is as long as the stretch that
-    arms weave in, and a hundredth more at most: the stretch grows with it, so that such a gap is
-    woven whole.  So in one joint all walls are nearly the same, whatever their gaps: they lock
-    alike, and open alike for a piece that goes up or down and turns a little.
+    arms weave in.  Its ratio is rounded up to a hundredth, and the stretch grows with it, so that
+    such a gap is woven whole.  So in one joint all walls are nearly the same, whatever their gaps:
+    they lock alike, and open alike for a piece that goes up or down and turns a little.
 
     Parameters
     ----------

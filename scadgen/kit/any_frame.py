@@ -156,9 +156,10 @@ def growth(request: Request) -> float:
     Raises
     ------
     InputError
-        Edges that no ring can hold.
+        A side outside its range, or edges that no ring can hold.
     """
     frame = _graph(request)
+    check_values([SIDE], {"side": request.values.get("side", 10.0)})
     same, kinds, weaves = _joints(request, frame)
     rings = np.array([weaves[n].ring_ratio for n in kinds.kind_of])
     return _needed(request, frame, _shortest(same), rings) / _shortest(same)

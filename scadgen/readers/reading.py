@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -33,6 +34,9 @@ __all__ = [
 #: A file has at most this many bytes for each segment that is allowed: a DXF line with all
 #: its attributes has some 300.
 _BYTES_EACH = 512
+
+#: Bytes that are read at once.
+_CHUNK = 1 << 20
 
 #: Shortest names first in a list; more than this many kinds are not listed.
 _KINDS_SHOWN = 8
@@ -158,12 +162,20 @@ def read_regular(path: Path, limit: int, why: str = "") -> bytes:
     with path.open("rb") as file:
         size = os.fstat(file.fileno()).st_size
         # Some files have more in them than they say.
-        data = file.read(limit + 1) if size <= limit else b""
+        data = _start(file, limit + 1) if size <= limit else b""
     size = max(size, len(data))
     if size > limit:
         msg = f"{size} bytes: at most {limit}{why}"
         raise InputError(msg)
     return data
+
+
+def _start(file: BinaryIO, most: int) -> bytes:
+    """The first bytes of a file, read bit by bit: it may be much shorter than that."""
+    found = bytearray()
+    while len(found) < most and (more_of_it := file.read(min(_CHUNK, most - len(found)))):
+        found += more_of_it
+    return bytes(found)
 
 
 def from_graph(name: str, vertices: ArrayLike, edges: ArrayLike, reading: Reading) -> Read:
