@@ -234,7 +234,7 @@ def test_a_slicer_tells_time_and_filament(run, folder, stand_in, tmp_path):
     assert len(called.read_text().splitlines()) == len(said["lines"]) == 5
     assert "--support-material-buildplate-only" in called.read_text()
     code, out, _ = run("bill", folder)
-    assert re.search(r"^no\. .*g all +time each +time all +filament g$", out, re.MULTILINE)
+    assert re.search(r"^no\. .*g all +time each +time all +filament g each$", out, re.MULTILINE)
     # Six connectors, each 5991 s and 6.08 cm3.
     assert re.search(r"^4 +connector .* 1 h 40 min +10 h 0 min +7\.54$", out, re.MULTILINE)
     assert "sliced one by one: 101 h 31 min, 460 g" in out
