@@ -122,6 +122,9 @@ def _filled(request: Request, frame: str, options: Mapping[str, Any], length: fl
         try:
             read = load_frame(frame, {**options, "edge_length": length})
         except InputError as error:
+            if scale < 1:
+                # Smaller cells fit; it is something else.
+                raise
             msg = (
                 f"frame {frame}: its joints need edges of {length:g} mm, and no tile with such "
                 "edges fits inside the outline; a larger one or a smaller side works"
