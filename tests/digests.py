@@ -18,7 +18,7 @@ import numpy as np
 
 from scadgen.cli.kit import kit as command
 from scadgen.cli.kit_request import kit_request
-from scadgen.frame.layout import bill
+from scadgen.frame.placement import bill
 from scadgen.kit.build import build
 from scadgen.solid.affine import PARAMETERS
 from scadgen.work.crew import hired

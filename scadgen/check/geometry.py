@@ -29,6 +29,7 @@ from scadgen.kit.store import dumps
 from scadgen.solid.affine import AffineSolid, Floats, Ints
 from scadgen.solid.gap import overlap_volume, smallest_gap
 from scadgen.solid.mesh import solid_faults, volume
+from scadgen.solid.pose import Pose
 
 __all__ = [
     "CLEARANCES",
@@ -61,33 +62,30 @@ _WALL = {"draft": 0.008, "standard": 0.002, "fine": 0.0007}
 
 def placed(kit: Kit, placement: Placement, values: Mapping[str, float]) -> tuple[Floats, Ints]:
     """A part's mesh where it stands."""
-    return standing(kit.parts[placement.part], placement, values)
+    return standing(kit.parts[placement.part], placement.pose, values)
 
 
-def standing(
-    solid: AffineSolid, placement: Placement, values: Mapping[str, float]
-) -> tuple[Floats, Ints]:
-    """A solid's mesh where a placement puts it."""
-    points = solid.points(values) * ([1.0, -1.0, -1.0] if placement.flip else [1.0, 1.0, 1.0])
-    angle = math.radians(placement.turn)
-    c, s = math.cos(angle), math.sin(angle)
-    points = points @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
-    return points + values["edge_length"] * np.array([*placement.at, 0.0]), solid.triangles
+def standing(solid: AffineSolid, pose: Pose, values: Mapping[str, float]) -> tuple[Floats, Ints]:
+    """A solid's mesh where a pose, in edge lengths, puts it."""
+    return pose.scaled(values["edge_length"]).apply(solid.points(values)), solid.triangles
 
 
 def same(kit: Kit) -> Result:
     """Whether the kit is what its own parameters make."""
+    regular = kit.tiling is not None and kit.tiling.regular
     request = Request(
-        kit.frame,
-        kit.key,
-        kit.rows,
-        kit.columns,
-        kit.detail,
-        weave_of(kit.joints[0]) if kit.graph is None else None,
-        {**kit.values},
-        kit.command,
-        kit.graph,
-        kit.rim,
+        kit.name,
+        frame=None if kit.tiling else kit.frame,
+        tiling=kit.tiling,
+        rows=kit.rows,
+        columns=kit.columns,
+        key=kit.key,
+        detail=kit.detail,
+        weave=weave_of(kit.joints[0]) if regular else None,
+        regular=regular,
+        values={**kit.values},
+        command=kit.command,
+        rim=kit.rim,
         refused=kit.refused,
     )
     made = build(request)
@@ -137,7 +135,7 @@ def partition(kit: Kit, joint: Joint) -> Iterator[Result]:
     """Whether the connectors make up the domain, and the halves their connector."""
     values = {**kit.values, "side": 1.0, "clearance": 0.0, "peg_clearance": 0.0}
     values |= {"peg_width": 0.3, "peg_length": 0.4, "bore": 0.1 if "bore" in kit.values else 0.0}
-    start, pad = joint.figures["tube_start_sides"], joint.figures["pad_sides"]
+    start, pad = joint.key.tube_start, joint.key.pad
     bore = values["bore"] ** 2 * (start - pad)
     content = {
         name: volume(kit.parts[name].points(values), kit.parts[name].triangles)

@@ -10,11 +10,10 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
-from scadgen.check.geometry import lattice_of, placed
+from scadgen.check.geometry import lattice_of, standing
 from scadgen.check.joint_contacts import whole_contacts
 from scadgen.check.pieces import key_tubes, pieces
 from scadgen.check.result import Result
-from scadgen.frame.placement import Placement
 from scadgen.interlock.assembly import Assembly, make_assembly
 from scadgen.interlock.certificate import BALANCED, check_certificate
 from scadgen.interlock.contacts import Contacts, Mesh, find_contacts
@@ -24,6 +23,7 @@ from scadgen.interlock.verdict import Certificate, Motion, verdict
 from scadgen.joint.joint import DETAILS, Detail
 from scadgen.kit.model import Joint, Kit
 from scadgen.solid.affine import Floats
+from scadgen.solid.pose import Pose
 
 __all__ = [
     "TIP",
@@ -58,7 +58,7 @@ def _whole(kit: Kit, joint: Joint, clearance: float = 0.0) -> list[Mesh]:
     """All connectors of a joint, none of them split."""
     values = {**kit.values, "clearance": clearance}
     return [
-        placed(kit, Placement(name, (0, 0), turn, edge in joint.over, role="cap"), values)
+        standing(kit.parts[name], Pose.flat((0, 0), turn, over=edge in joint.over), values)
         for edge, (name, turn) in enumerate(zip(joint.connectors, joint.turns, strict=True))
     ]
 
@@ -87,12 +87,11 @@ def only_the_peg_moves(kit: Kit, joint: Joint) -> Iterator[Result]:
     """
     values = {**kit.values, "clearance": 0.0, "peg_clearance": 0.0}
     meshes = pieces(kit, joint, values)
-    turns = {n: np.radians(p.turn) for n, p in enumerate(joint.pieces) if p.role == "peg"}
-    axes = {n: np.array([np.cos(turn), np.sin(turn), 0.0]) for n, turn in turns.items()}
+    axes = {n: np.array(p.pose.x) for n, p in enumerate(joint.pieces) if p.role == "peg"}
     roles = [place.role for place in joint.pieces]
     held = [roles.index("cap") if "cap" in roles else 0]
     if kit.key == "loose":
-        for tube in key_tubes(kit, joint, values).values():
+        for tube in key_tubes(joint, values).values():
             held.append(len(meshes))
             meshes.append(tube)
     names = [place.part for place in joint.pieces]

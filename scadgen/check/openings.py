@@ -21,6 +21,7 @@ from scadgen.interlock.path import Path
 from scadgen.joint.joint import DETAILS
 from scadgen.kit.model import Joint, Kit
 from scadgen.solid.affine import Floats, Ints
+from scadgen.solid.pose import Pose
 
 __all__ = ["Openings"]
 
@@ -51,10 +52,8 @@ class Openings:
 
     def __init__(self, kit: Kit, joint: Joint) -> None:
         self._joint, self._detail = joint, DETAILS[kit.detail]
-        turns, count = np.array(joint.turns), len(joint.turns)
-        self._edge = [
-            int(np.abs((turns - place.turn + 180) % 360 - 180).argmin()) for place in joint.pieces
-        ]
+        count = len(joint.turns)
+        self._edge = [place.slot for place in joint.pieces]
         # The gaps in which each piece has a wall.
         self._walls_of: list[set[int]] = []
         for edge, place in zip(self._edge, joint.pieces, strict=True):
@@ -100,11 +99,10 @@ class Openings:
 
     def _of_half(self, piece: int, present: Collection[int]) -> Iterator[_Touch]:
         """Where a half touches the other one, and the tube on their edge."""
-        figures, role = self._joint.figures, self._joint.pieces[piece].role
+        key, role = self._joint.key, self._joint.pieces[piece].role
         side = 1.0 if role == "half_a" else -1.0
-        start, pad = figures["tube_start_sides"], figures["pad_sides"]
-        c, s = np.cos(turn := self._joint.directions[self._edge[piece]]), np.sin(turn)
-        about = np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
+        start, pad = key.tube_start, key.pad
+        about = Pose.flat((0, 0), self._joint.turns[self._edge[piece]]).axes
         twins = {piece - 1, piece + 1} & set(present)
         if any(self._edge[n] == self._edge[piece] for n in twins):
             corners = np.array(list(itertools.product((pad, start), (0.0,), (-0.5, 0.5))))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 
 from scadgen.check.known import known_ways
@@ -136,7 +136,16 @@ def _alone(kit: Kit, joint: Joint) -> Kit:
     used = dict.fromkeys((*(place.part for place in joint.pieces), *joint.connectors))
     parts = {name: kit.parts[name] for name in used}
     return replace(
-        kit, parts=parts, joints=(joint,), placements=(), graph=None, slicing=None, ranges=()
+        kit,
+        parts=parts,
+        joints=(joint,),
+        frame=None,
+        tiling=None,
+        cells=None,
+        vertices=(),
+        placements=(),
+        slicing=None,
+        ranges=(),
     )
 
 
@@ -156,7 +165,8 @@ def _key(claim: Claim) -> str:
         connectors=[number[name] for name in joint.connectors],
         over=joint.over,
         weave=dict(joint.weave),
-        pieces=[[number[p.part], p.at, p.turn, p.flip, p.role] for p in joint.pieces],
+        pieces=[[number[p.part], p.role, p.pose.x, p.pose.z, p.slot] for p in joint.pieces],
+        key=asdict(joint.key),
         figures=dict(joint.figures),
         ways=[way_entry(way) for way in joint.ways],
     )

@@ -47,7 +47,7 @@ def checks(
             for joint in kit.joints
             for what, found in _of_joint(kit, joint, say).items()
         },
-        "drawings": _drawings(kit, source / f"{kit.frame}.scad", timeout),
+        "drawings": _drawings(kit, source / f"{kit.name}.scad", timeout),
     }
 
 

@@ -166,8 +166,8 @@ class _Bodies:
         values = kit.values
         self.side, self.clearance = values["side"], values["clearance"]
         self.meshes = pieces(kit, joint, values)
-        self.tubes = tubes(kit, joint, values)
-        self.key_tubes = key_tubes(kit, joint, values) if kit.key == "loose" else {}
+        self.tubes = tubes(joint, values)
+        self.key_tubes = key_tubes(joint, values) if kit.key == "loose" else {}
         self._is_loose, self._joint = kit.key == "loose", joint
         self._openings = Openings(kit, joint) if "stretch" in joint.weave else None
 
@@ -216,10 +216,9 @@ class _Bodies:
 
     def _of_peg(self, piece: int) -> Path:
         """A loose peg's way into the middle of the ring's hole, and up."""
-        turn = self._joint.pieces[piece].turn
-        along = np.array([np.cos(np.radians(turn)), np.sin(np.radians(turn)), 0.0])
-        reach, figures = self.meshes[piece][0] @ along, self._joint.figures
-        pad, hole = (figures[name] * self.side for name in ("pad_sides", "ring_hole_sides"))
+        along = np.array(self._joint.pieces[piece].pose.x)
+        reach, key = self.meshes[piece][0] @ along, self._joint.key
+        pad, hole = (v * self.side for v in (key.pad, self._joint.figures["ring_hole_sides"]))
         inwards = reach.max() - pad + (hole - np.ptp(reach)) / 2
         steps = np.zeros((3, 6))
         steps[1:, :3] = -inwards / self.side * along

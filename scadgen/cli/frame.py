@@ -11,7 +11,7 @@ import click
 
 from scadgen.cli.console import status, table
 from scadgen.cli.frame_report import SIDES, report, show
-from scadgen.cli.frame_source import is_grid, load_frame, option, source_options
+from scadgen.cli.frame_source import has_cells, load_frame, option, source_options
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -81,21 +81,22 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     from scadgen.check.frame import rings
     from scadgen.emit.frame_picture import frame_svg
     from scadgen.emit.mesh import write_atomic
+    from scadgen.frame.catalogue import ALIASES, NAMES
     from scadgen.frame.sameness import Snapped
     from scadgen.joint.weave import LIMITS, built_in
-    from scadgen.kit.request import VALENCE
     from scadgen.readers.json_frame import dumps
 
     _check_range("ring-ratio", ring_ratio, "sides", LIMITS["ring_ratio"])
     given = [n for n, v in options.items() if v is not None and v is not False]
-    grid = is_grid(name, given)
-    if grid and ring_ratio is None:
-        ring_ratio = built_in(VALENCE[name], "fixed").ring_ratio
+    family = NAMES.get(ALIASES.get(name, name))
+    regular = family is not None and family.regular and has_cells(name, given)
     with status("looking at the frame"):
         read = load_frame(name, options)
+        if regular and ring_ratio is None:
+            ring_ratio = built_in(int(read.frame.degree.max()), "fixed").ring_ratio
         kinds = _kinds(read.frame, snap_angle, snap_length)
         snapped, same = (kinds, kinds.same) if isinstance(kinds, Snapped) else (None, kinds)
-        build = rings(read.frame, same, ring_ratio, fixed=grid)
+        build = rings(read.frame, same, ring_ratio, fixed=regular)
         said = report(build, read.notes, snapped, side)
         if output:
             write_atomic(output, dumps(read.frame).encode())

@@ -16,7 +16,7 @@ from scadgen.errors import InputError
 if TYPE_CHECKING:
     from scadgen.readers.reading import Read
 
-__all__ = ["is_grid", "load_frame", "option", "source_options"]
+__all__ = ["has_cells", "load_frame", "option", "source_options"]
 
 #: Options of families: type, metavar, what it means; as in the catalogue.
 _FAMILY: dict[str, tuple[type, str, str]] = {
@@ -106,7 +106,7 @@ def source_options(
     return add
 
 
-def is_grid(name: str, options: Iterable[str]) -> bool:
+def has_cells(name: str, options: Iterable[str]) -> bool:
     """Whether a kit of this frame, with these options given, has rows and columns to set.
 
     Parameters
@@ -116,9 +116,11 @@ def is_grid(name: str, options: Iterable[str]) -> bool:
     options
         Names of the options of frames that are given.
     """
-    from scadgen.kit.request import VALENCE
+    from scadgen.frame.catalogue import ALIASES, NAMES
 
-    return name in VALENCE and {*options} <= {"edge_length", "rows", "columns"}
+    family = NAMES.get(ALIASES.get(name, name))
+    shaped = {"edge_length", "rows", "columns", "width", "height", "angle"}
+    return family is not None and "rows" in family.options and {*options} <= shaped
 
 
 def load_frame(name: str, options: Mapping[str, Any]) -> Read:

@@ -162,7 +162,7 @@ def kit(
 
     material = check_material(material)
     request, notes = kit_request(frame, options, {name for name, *_ in _LENGTHS}, _command())
-    folder = output or Path(request.frame)
+    folder = output or Path(request.name)
     check_folder(folder)
     told: list[str] = []
     with hired(jobs, dask, told.append) as crew, progress(f"making {folder}") as bar:
@@ -207,11 +207,10 @@ def _say(made: Kit, folder: Path, notes: Sequence[str]) -> None:
     for note in notes:
         click.echo(f"note: {note}")
     bill = summary(made)["bill"]
-    size = (
-        f"{made.rows} x {made.columns} cells"
-        if made.graph is None
-        else f"{counted(len(made.graph.edges), 'edge')} and {len(made.graph.vertices)} joints"
-    )
+    edges = 0 if made.frame is None else len(made.frame.edges)
+    size = f"{counted(edges, 'edge')} and {counted(len(made.vertices), 'joint')}"
+    if made.cells is not None:
+        size = f"{made.rows} x {made.columns} cells, {size}"
     click.echo(f"{click.format_filename(folder)}: {sum(bill.values())} pieces to print for {size}")
     for part, number in bill.items():
         click.echo(f"  {number:4d} {part}")

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from scadgen.cli.frame_source import is_grid, load_frame, option
+from scadgen.cli.frame_source import has_cells, load_frame, option
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -19,6 +19,9 @@ __all__ = ["kit_request"]
 
 #: Options of named frames that say how large one is, and how large what it fills is, in mm.
 _SIZES, _AREAS = {"width", "height", "bay_length"}, {"radius", "outline"}
+
+#: Rows and columns that are not said: of regular joints, and of others.
+_FEW, _MORE = 2, 3
 
 #: A weave's file has at most this many bytes: its six numbers have some hundred.
 _LONGEST_WEAVE = 100_000
@@ -45,65 +48,87 @@ def kit_request(
     InputError
         There is no such frame or weave, or an option does not go with it.
     """
+    from scadgen.frame.catalogue import ALIASES, NAMES
     from scadgen.kit.build import Request
 
     own = {"rows", "columns", "key", "rim", "detail", "weave", *lengths}
-    values = {n: v for n, v in options.items() if n in lengths and v is not None}
-    weave = _weave(options["weave"]) if options["weave"] is not None else None
     # A length of 0 is given, and wrong, though it equals False.
     of_frame = {
         n: v for n, v in options.items() if n not in own and v is not None and v is not False
     }
-    detail, rim = options["detail"], options["rim"]
-    rows, columns = options["rows"], options["columns"]
-    if is_grid(frame, of_frame) and rim == "caps":
-        rows, columns = (2 if count is None else count for count in (rows, columns))
-        key = options["key"] or "fixed"
-        return Request(frame, key, rows, columns, detail, weave, values, command), ()
-    from scadgen.frame.catalogue import ALIASES, NAMES
-
-    cells = {"rows": rows, "columns": columns}
-    of_frame |= {n: v for n, v in cells.items() if v is not None}
-    family = NAMES.get(ALIASES.get(frame, frame))
-    areas = sorted(of_frame.keys() & _AREAS)
-    cells_grow = family is not None and "edge_length" in family.options
-    if cells_grow and "edge_length" in values:
-        of_frame["edge_length"] = values["edge_length"]
-    elif areas and "edge_length" in values:
-        msg = f"frame {frame}: --edge-length and {option(areas[0])}: give one of them"
-        raise InputError(msg)
-    read = load_frame(frame, of_frame)
-    name = re.sub(r"[^A-Za-z0-9.-]+", "_", frame if family else Path(frame).stem).strip("._-")
-    request = Request(
-        "frame" if name.lower() in ("", "kit") else name,
-        options["key"] or "loose",
-        0,
-        0,
-        detail,
-        weave,
-        values,
-        command,
-        read.frame,
-        rim,
+    name = ALIASES.get(frame, frame)
+    family = NAMES.get(name)
+    wanted = Request(
+        _plain_name(frame if family else Path(frame).stem),
+        key=options["key"] or "loose",
+        detail=options["detail"],
+        weave=_weave(options["weave"]) if options["weave"] is not None else None,
+        regular=family is not None and family.regular and not of_frame and options["rim"] == "caps",
+        values={n: v for n, v in options.items() if n in lengths and v is not None},
+        command=command,
+        rim=options["rim"],
         resizable=family is not None and not of_frame.keys() & (_SIZES | _AREAS),
     )
-    if areas and cells_grow and "edge_length" not in values:
-        shortest = float(read.frame.lengths.min())
-        request = _filled(request, frame, of_frame, shortest)
-    plain = _plain(frame, [*of_frame, *(["rim"] if rim != "caps" else [])])
-    return request, (*plain, *read.notes)
+    cells = {n: options[n] for n in ("rows", "columns") if options[n] is not None}
+    if has_cells(frame, of_frame) and wanted.rim == "caps":
+        return _of_cells(wanted, name, cells, of_frame, options["key"]), ()
+    return _of_frame(wanted, frame, of_frame | cells)
+
+
+def _of_cells(
+    wanted: Request,
+    name: str,
+    cells: Mapping[str, int],
+    options: Mapping[str, Any],
+    key: str | None,
+) -> Request:
+    """The kit of rows and columns of a tiling."""
+    from scadgen.frame.catalogue import NamedTiling
+
+    few = _FEW if wanted.regular else _MORE
+    return replace(
+        wanted,
+        tiling=NamedTiling(name, dict(options)),
+        rows=cells.get("rows", few),
+        columns=cells.get("columns", few),
+        key=key or ("fixed" if wanted.regular else "loose"),
+    )
+
+
+def _of_frame(
+    wanted: Request, frame: str, options: dict[str, Any]
+) -> tuple[Request, tuple[str, ...]]:
+    """The kit of a frame as it is, and what there is to say of the frame."""
+    from scadgen.frame.catalogue import ALIASES, NAMES
+
+    family = NAMES.get(ALIASES.get(frame, frame))
+    areas = sorted(options.keys() & _AREAS)
+    cells_grow = family is not None and "edge_length" in family.options
+    if cells_grow and "edge_length" in wanted.values:
+        options["edge_length"] = wanted.values["edge_length"]
+    elif areas and "edge_length" in wanted.values:
+        msg = f"frame {frame}: --edge-length and {option(areas[0])}: give one of them"
+        raise InputError(msg)
+    read = load_frame(frame, options)
+    request = replace(wanted, frame=read.frame)
+    if areas and cells_grow and "edge_length" not in wanted.values:
+        request = _filled(request, frame, options, float(read.frame.lengths.min()))
+    given = [*options, *(["rim"] if wanted.rim != "caps" else [])]
+    return request, (*_plain(frame, given), *read.notes)
+
+
+def _plain_name(name: str) -> str:
+    """What a kit's files are called."""
+    plain = re.sub(r"[^A-Za-z0-9.-]+", "_", name).strip("._-")
+    return "frame" if plain.lower() in ("", "kit") else plain
 
 
 def _plain(frame: str, given: Sequence[str]) -> tuple[str, ...]:
-    """A note that a grid is made as other frames are, if it is one, with the options given."""
-    if not is_grid(frame, ()):
+    """A note that cells are made as other frames are, if they are, with the options given."""
+    if not has_cells(frame, ()):
         return ()
-    causes = " and ".join(option(name) for name in given if not is_grid(frame, [name]))
-    note = (
-        f"with {causes} this {frame} frame is made as other frames are: its pegs are loose, and "
-        "its rows and columns cannot be set later"
-    )
-    return (note,)
+    causes = " and ".join(option(name) for name in given if not has_cells(frame, [name]))
+    return (f"with {causes} the rows and columns of this {frame} frame cannot be set later",)
 
 
 def _filled(request: Request, frame: str, options: Mapping[str, Any], length: float) -> Request:
@@ -114,7 +139,7 @@ def _filled(request: Request, frame: str, options: Mapping[str, Any], length: fl
     InputError
         None of them fits.
     """
-    from scadgen.kit.any_frame import growth
+    from scadgen.kit.sizing import growth
 
     scale = growth(request)
     while True:
@@ -130,7 +155,7 @@ def _filled(request: Request, frame: str, options: Mapping[str, Any], length: fl
                 "edges fits inside the outline; a larger one or a smaller side works"
             )
             raise InputError(msg) from error
-        request = replace(request, graph=read.frame)
+        request = replace(request, frame=read.frame)
         scale = growth(request)
         if scale < 1 + 1e-6:
             return request

@@ -69,7 +69,7 @@ def render(
     def draw(part: str) -> tuple[str, str, str]:
         output = target / f"{part}.{kind}"
         options = openscad.PICTURE if kind == "png" else ()
-        scad = folder / f"{kit.frame}.scad"
+        scad = folder / f"{kit.name}.scad"
         setting: dict[str, str | float] = {"part": part, **values}
         done = openscad.render(scad, output, setting, timeout=timeout, options=options, stop=stop)
         content = f"{check_stl(output) / 1000:.2f} cm3, watertight" if kind == "stl" else ""

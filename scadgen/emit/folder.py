@@ -44,9 +44,9 @@ def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
     """The kit's files by name, and what writes each."""
     files: dict[str, Callable[[Kit], str | bytes]] = {
         "kit.json": dumps,
-        f"{kit.frame}.scad": scad,
-        f"{kit.frame}.json": parameter_sets,
-        f"{kit.frame}.FCMacro": macro,
+        f"{kit.name}.scad": scad,
+        f"{kit.name}.json": parameter_sets,
+        f"{kit.name}.FCMacro": macro,
         "Makefile": makefile,
         "check_stl.py": stl_check,
         "README.md": readme,
@@ -55,7 +55,7 @@ def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
     }
     if kit.proved:
         files["assembly.png"] = assembly_picture
-    if kit.graph is not None:
+    if kit.tiling is None or not kit.tiling.regular:
         files["placing.svg"] = placing
     return files
 
@@ -154,7 +154,7 @@ def update_bill(kit: Kit, folder: Path) -> None:
 
 def _of_bill(kit: Kit) -> tuple[str, ...]:
     """The files that have a kit's bill; the macro has all of the kit."""
-    return "kit.json", "parts.csv", "README.md", f"{kit.frame}.FCMacro"
+    return "kit.json", "parts.csv", "README.md", f"{kit.name}.FCMacro"
 
 
 def check_folder(folder: Path) -> Path:

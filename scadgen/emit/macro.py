@@ -67,7 +67,7 @@ def macro(kit: Kit) -> str:
         .get_template("macro.FCMacro.j2")
         .render(
             version=scadgen.__version__,
-            frame=kit.frame,
+            frame=kit.name,
             key=kit.key,
             proved=kit.proved,
             imports=_merged(module.imports for module in modules),

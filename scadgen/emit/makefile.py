@@ -35,10 +35,10 @@ def makefile(kit: Kit) -> str:
         environment()
         .get_template("kit.mk.j2")
         .render(
-            title=f"{comment(kit.frame)} frame of interlocking edge elements",
+            title=f"{comment(kit.name)} frame of interlocking edge elements",
             version=__version__,
             command=comment(kit.command),
-            scad=f"{kit.frame}.scad",
+            scad=f"{kit.name}.scad",
             parts=list(kit.parts),
             pictures=[name for name in views(kit) if name not in _FLAT],
             proved=kit.proved,

@@ -18,10 +18,10 @@ from scadgen.emit.letters import written
 from scadgen.emit.preview import LARGEST, Colour, Shell, render
 from scadgen.emit.scad_parameters import limits
 from scadgen.errors import InputError
-from scadgen.frame.layout import bill
-from scadgen.frame.placement import Placement
+from scadgen.frame.placement import Placement, bill
 from scadgen.kit.model import Joint, Kit
 from scadgen.solid.affine import Floats
+from scadgen.solid.pose import Pose
 
 __all__ = [
     "COLOURS",
@@ -51,7 +51,7 @@ _VIEW = (-90.0, 48.0)
 _RIGHT = np.array([1.0, 0.0, 0.0])
 _UP = np.array([0.0, math.sin(math.radians(_VIEW[1])), math.cos(math.radians(_VIEW[1]))])
 #: Turn of a joint, and of a part alone, so that its edge is seen a little from its end.
-_JOINT_TURN, _PART_TURN = 18.0, 14.0
+_JOINT_TURN, _PART_TURN = Pose.flat((0, 0), 18.0), Pose.flat((0, 0), 14.0)
 #: How far a joint is pulled apart in the preview, in sides, and the furthest it may be.
 _APART, _MOST_APART = 3.5, 100.0
 #: Tube that a part is shown with, in sides over the shortest; longer ones would dwarf the joints.
@@ -85,7 +85,7 @@ def preview(kit: Kit, *, size: tuple[int, int] = (1000, 750)) -> bytes:
     png
         The file's bytes; the same for the same kit.
     """
-    elements = list(bill((p for p in kit.placements if p.role in ("row", "cross")), kit.parts))
+    elements = list(bill((p for p in kit.placements if p.is_element), kit.parts))
     shown = kit.joints[:MOST_JOINTS]
     joints = [
         [_named(_joint(kit, one), one.name, kit.values["side"]), _joint(kit, one, _APART)]
@@ -181,8 +181,7 @@ def parts_picture(kit: Kit, *, size: tuple[int, int] = (1200, 900)) -> bytes:
         Width and height in pixels.
     """
     needed = bill(kit.placements, kit.parts)
-    roles = _roles(kit)
-    elements = [name for name in needed if roles[name] in ("row", "cross")]
+    elements = [name for name in needed if kit.parts[name].is_element]
     pieces = [name for name in needed if name not in elements]
     return _draw(kit, [[_alone(kit, n) for n in row] for row in (elements, pieces)], size)
 
@@ -230,7 +229,7 @@ def _joint(
         if placement.role == "cap":
             colour = _lighter(colour, step * seen)
             seen += 1
-        shells[n] = _turned(points, _JOINT_TURN, flip=False), triangles, colour
+        shells[n] = _JOINT_TURN.apply(points), triangles, colour
     return [shell for n, shell in enumerate(shells) if there is None or n in there]
 
 
@@ -253,7 +252,7 @@ def _alone(kit: Kit, name: str) -> _Item:
     """One part, with a tube no longer than a few sides."""
     shortest, _ = limits(kit, "edge_length", kit.values)
     shown = min(kit.values["edge_length"], shortest + _SHOWN * kit.values["side"])
-    placement = Placement(name, (0.0, 0.0), _PART_TURN, flip=False, role=_roles(kit)[name])
+    placement = Placement(name, _roles(kit)[name], _PART_TURN, ())
     return _placed(kit, [placement], {**kit.values, "edge_length": shown}, 0.0)
 
 
@@ -268,8 +267,7 @@ def _placed(
         own = points[p.part]
         if explode:
             own = own + explode * values["side"] * _way(p, own)
-        place = np.array([*p.at, 0.0]) * values["edge_length"]
-        turned = _turned(own, p.turn, flip=p.flip) + place
+        turned = p.pose.scaled(values["edge_length"]).apply(own)
         shells.append((turned, kit.parts[p.part].triangles, COLOURS[p.role]))
     return shells
 
@@ -279,14 +277,6 @@ def _way(placement: Placement, points: Floats) -> Floats:
     if placement.role in ("half_a", "half_b"):
         return np.array([0.5, 0.5 * math.copysign(1.0, points[:, 1].mean()), 0.0])
     return np.array([1.0, 0.0, 0.0])
-
-
-def _turned(points: Floats, turn: float, *, flip: bool) -> Floats:
-    """Points after a half turn about x where `flip` says so, then a turn about z in degrees."""
-    c, s = math.cos(math.radians(turn)), math.sin(math.radians(turn))
-    f = -1.0 if flip else 1.0
-    turning = np.array([[c, s, 0.0], [-s * f, c * f, 0.0], [0.0, 0.0, f]])
-    return np.asarray(points @ turning)
 
 
 def _draw(kit: Kit, rows: Sequence[Sequence[_Item]], size: tuple[int, int]) -> bytes:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Collection
 from functools import partial
 
 import numpy as np
 
-from scadgen.emit.part_words import lopsided
 from scadgen.emit.picture import COLOURS
 from scadgen.emit.templates import UNCHECKED
 from scadgen.frame.placement import Placement
@@ -51,16 +49,15 @@ def placing(kit: Kit) -> str:
         A white dot is on the near end of each element whose ends differ.
         What lies the other way up has a star; a joint has one if its halves do.  A legend says so.
     """
-    points = np.array([p.at for p in kit.placements]) * (_EDGE, -_EDGE)
+    points = np.array([p.pose.at[:2] for p in kit.placements]) * (_EDGE, -_EDGE)
     corner = points.min(axis=0) - _MARGIN
     width, height = points.max(axis=0) + _MARGIN - corner
     width = max(width, _WIDE)
-    names, dotted = set(kit.elements), lopsided(kit)
-    numbers = {at: number for number, at in enumerate(kit.vertices, 1)}
+    dotted = {name for name, part in kit.parts.items() if part.fits_one_way}
     layers: list[list[str]] = [[], [], [], [], []]
     for placement, point in zip(kit.placements, points - corner, strict=True):
-        if placement.part in names:
-            end = point + _ahead(placement, _EDGE * _times(kit, placement.part))
+        if placement.is_element:
+            end = point + _ahead(placement, _EDGE * kit.parts[placement.part].length)
             layers[0].append(_line(point, end, placement.role))
             layers[4].append(_text((point + end) / 2, placement.marked(placement.part)))
             if placement.part in dotted:
@@ -72,8 +69,8 @@ def placing(kit: Kit) -> str:
                 _text(point + _ahead(placement, 2.6 * _JOINT), placement.marked(which))
             )
         elif placement.role == "half_a":
-            letter = placement.marked(placement.joint)
-            layers[1].append(_joint(point, str(numbers[placement.at]), letter))
+            letter = placement.marked(kit.vertices[placement.vertex].joint)
+            layers[1].append(_joint(point, str(placement.vertex + 1), letter))
         elif placement.role == "peg":
             layers[2].append(_peg(point + _ahead(placement, _BESIDE * _JOINT)))
     legend = _legend(kit, dotted, height)
@@ -151,14 +148,8 @@ def _dotted(middle: Floats) -> str:
     return _tube(middle, "row") + _dot(middle)
 
 
-def _times(kit: Kit, name: str) -> float:
-    """Length of an element, in edge lengths."""
-    return float(kit.parts[name].coefficients["edge_length"][:, 0].max())
-
-
 def _ahead(placement: Placement, length: float) -> Floats:
-    turn = math.radians(placement.turn)
-    return length * np.array([math.cos(turn), -math.sin(turn)])
+    return length * np.array(placement.pose.x[:2]) * (1.0, -1.0)
 
 
 def _line(start: Floats, end: Floats, role: str) -> str:

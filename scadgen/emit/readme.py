@@ -9,13 +9,14 @@ from itertools import pairwise
 from typing import Any
 
 from scadgen import __version__
-from scadgen.emit.part_words import lopsided, words
+from scadgen.emit.part_words import words
 from scadgen.emit.picture import MOST_JOINTS
 from scadgen.emit.scad_parameters import Parameter, sections
 from scadgen.emit.scad_text import literal
 from scadgen.emit.templates import environment
-from scadgen.frame.layout import MOST_CELLS, bill
+from scadgen.frame.placement import bill
 from scadgen.kit.bill import Line, in_words, lines
+from scadgen.kit.cells import MOST_CELLS
 from scadgen.kit.model import DENSITIES, Joint, Kit
 from scadgen.kit.ranges import span
 
@@ -51,26 +52,31 @@ def readme(kit: Kit) -> str:
     engine.filters["md"] = _plain
     return engine.get_template("kit_readme.md.j2").render(
         version=__version__,
-        frame=kit.frame,
+        frame=kit.name,
         key=kit.key,
         rows=kit.rows,
         columns=kit.columns,
         detail=kit.detail,
-        scad=f"{kit.frame}.scad",
-        macro=f"{kit.frame}.FCMacro",
+        scad=f"{kit.name}.scad",
+        macro=f"{kit.name}.FCMacro",
         needed=[_needed(line, what[line.part]) for line in needed],
         all=_whole(kit, needed),
         material=kit.material,
         density=DENSITIES[kit.material],
         sliced=kit.slicing and kit.slicing.how,
-        pegs=[line.part for line in needed if line.part.startswith("peg_")],
+        pegs=[name for name in asked if kit.parts[name].role == "peg" and name != "peg"],
         others=[f"`{name}`" for name in kit.parts if name not in asked],
         joints=[_joint(kit, one) for one in kit.joints],
-        grid=kit.rows > 0,
+        regular=kit.tiling is not None and kit.tiling.regular,
+        cells=kit.cells is not None,
         caps=any(place.role == "cap" for place in kit.placements),
         halves=_halves(kit),
-        lopsided=not lopsided(kit).isdisjoint(asked),
-        second_shapes=[f"`{name}`" for name in asked if name.endswith("_over")],
+        lopsided=any(kit.parts[name].fits_one_way for name in asked),
+        second_shapes=[
+            f"`{name}`"
+            for name in asked
+            if kit.parts[name].role == "half" and kit.parts[name].ends[0].over
+        ],
         half_names=sorted({name for one in kit.joints for name in one.half_parts}),
         other_way_up=any(place.other_way_up for place in kit.placements),
         side=literal(kit.values["side"]),
@@ -120,10 +126,10 @@ def _counted(one: Joint, part: str, count: int) -> str:
     roles = {p.role for p in mine}
     notes = []
     for role, half in _HALVES.items():
-        turns = ", ".join(f"{p.turn:.4g}°" for p in mine if p.role == role)
+        turns = ", ".join(f"{p.pose.degrees:.4g}°" for p in mine if p.role == role)
         if turns and len(one.half_parts) > 1:
             notes.append(half if len(roles) == 1 else f"{half} at {turns}")
-    if over := [f"{p.turn:.4g}°" for p in mine if p.other_way_up]:
+    if over := [f"{p.pose.degrees:.4g}°" for p in mine if p.other_way_up]:
         notes.append(f"turned over at {', '.join(over)}")
     return f"{count} x `{part}`" + (f" ({', '.join(notes)})" if notes else "")
 

@@ -6,7 +6,7 @@ evaluates, and every plate or assembly is one polyhedron of many shells.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -18,8 +18,8 @@ from scadgen.emit.scad_parameters import parameter_sets, sections
 from scadgen.emit.scad_text import comment, expression, faces, number, quoted, table
 from scadgen.emit.templates import environment
 from scadgen.errors import InvariantError
-from scadgen.frame.layout import LAYOUTS, MOST_CELLS
 from scadgen.frame.placement import Placement
+from scadgen.kit.cells import MOST_CELLS, CellPiece, Cells
 from scadgen.kit.model import Joint, Kit
 from scadgen.solid.affine import PARAMETERS, AffineSolid
 
@@ -52,7 +52,7 @@ def scad(kit: Kit) -> str:
     template_engine = environment()
     template_engine.filters["quoted"] = quoted
     text = template_engine.get_template("kit.scad.j2").render(
-        title=f"{comment(kit.frame).capitalize()} frame of interlocking edge elements",
+        title=f"{comment(kit.name).capitalize()} frame of interlocking edge elements",
         purpose="Parts of a planar truss, a joint, print plates, the whole frame, and a coupon.",
         version=__version__,
         command=comment(kit.command),
@@ -60,8 +60,7 @@ def scad(kit: Kit) -> str:
         joints=[_joint(one) for one in kit.joints],
         proved=kit.proved,
         detail=comment(kit.detail),
-        frame=kit.frame,
-        file=f"{kit.frame}.scad",
+        file=f"{kit.name}.scad",
         sections=sections(kit),
         live=live,
         index={name: i for i, name in enumerate(live)},
@@ -80,9 +79,9 @@ def scad(kit: Kit) -> str:
         tubes=tubes(kit),
         highest=HIGHEST,
         first_element=next(iter(kit.parts)),
-        grid=kit.rows > 0,
-        # A grid lays its own frame out, by rows and columns.
-        placements=[] if kit.rows else [_placement(p) for p in kit.placements],
+        regular={"half", "connector"} <= kit.parts.keys(),
+        cells=kit.cells and _cells(kit.cells),
+        placements=[] if kit.cells else [_placement(p) for p in kit.placements],
         half_side=_half_side(kit),
         chamfer=f"s[{live.index('peg_chamfer')}]" if "peg_chamfer" in live else "0",
         most_cells=MOST_CELLS,
@@ -95,9 +94,6 @@ def scad(kit: Kit) -> str:
 
 def _check(kit: Kit) -> None:
     """Check what the template counts on."""
-    if kit.frame not in LAYOUTS and kit.graph is None:
-        msg = f"every kit's frame has a layout: {kit.frame!r} has none"
-        raise InvariantError(msg)
     for name in _NEEDED:
         if name not in kit.values:
             msg = f"every kit has the live parameter {name}: this one has not"
@@ -135,9 +131,33 @@ def _part(solid: AffineSolid, live: list[str]) -> Mapping[str, Any]:
 
 
 def _placement(p: Placement) -> str:
-    flip = "true" if p.flip else "false"
-    x, y = (number(c) for c in p.at)
-    return f"[{quoted(p.part)}, {x}, {y}, {number(p.turn)}, {flip}, {quoted(p.role)}]"
+    return f"[{_piece(p)}]"
+
+
+def _piece(p: Placement | CellPiece) -> str:
+    """What is placed, as what, and how."""
+    pose = ", ".join(_vector(v) for v in (p.pose.at, p.pose.x, p.pose.z))
+    return f"{quoted(p.part)}, {quoted(p.role)}, {pose}"
+
+
+def _vector(values: Iterable[float]) -> str:
+    return f"[{', '.join(map(number, values))}]"
+
+
+def _cells(cells: Cells) -> Mapping[str, Any]:
+    """What stands in a cell, as the template writes it."""
+    offsets = [c for p in cells.pieces for c in p.any_of]
+    return {
+        "pieces": [
+            f"[{_piece(p)}, {[list(c) for c in p.any_of]}, {[list(c) for c in p.none_of]}]"
+            for p in cells.pieces
+        ],
+        "across": _vector((*cells.across, 0.0)),
+        "up": _vector((*cells.up, 0.0)),
+        "drift": number(cells.drift),
+        # A row farther off may be moved back by one cell more.
+        "reach": 1 + max(abs(n) for c in offsets for n in c),
+    }
 
 
 def _half_side(kit: Kit) -> int:

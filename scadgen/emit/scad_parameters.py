@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from scadgen.emit.scad_numbers import HIGHEST
 from scadgen.emit.scad_text import literal
 from scadgen.errors import InvariantError
-from scadgen.frame.layout import MOST_CELLS
-from scadgen.kit.model import Kit
+from scadgen.kit.cells import MOST_CELLS
+from scadgen.kit.model import Kit, Part
 
 __all__ = [
     "Parameter",
@@ -23,20 +23,27 @@ __all__ = [
     "views",
 ]
 
-#: What each choice of ``part`` is, for the Customizer; no comma, colon or bracket.
-_LABELS: Mapping[str, str] = {
+#: What each part of regular joints is, for the Customizer; no comma, colon or bracket.
+_PARTS: Mapping[str, str] = {
     "basic": "Edge element with two connectors",
     "one_sided": "Edge element with connector and peg end",
     "two_sided": "Edge element with two peg ends",
-    "connector": "Loose connector for the rim",
     "half": "Locking half - print two a joint",
-    "peg": "Loose peg",
-    "tube": "Plain tube",
-    "edge": "Edge element",
+}
+
+#: What other parts are, by their role; each may have a number or a letter of its own.
+_ROLES: Mapping[str, str] = {
+    "element": "Edge element {}",
+    "connector": "Loose connector {} for the rim",
+    "half": "Locking half {}",
+    "peg": "Loose peg {}",
+    "tube": "Plain tube {}",
+}
+
+#: What else is drawn.
+_VIEWS: Mapping[str, str] = {
     "plate": "Print plate of a whole frame",
     "joint_plate": "Print plate of one joint to try first",
-    "joint": "Joint assembled",
-    "joint_exploded": "Joint pulled apart",
     "frame": "Frame assembled",
     "coupon": "Coupon to find the clearance",
 }
@@ -101,36 +108,29 @@ _NUMBERS = Section(
 )
 
 
-def views(kit: Kit) -> list[str]:
-    """What is drawn beside single parts, as ``part`` names it."""
-    joints = [view for one in kit.joints for view in (one.view, f"{one.view}_exploded")]
-    return ["plate", "joint_plate", *joints, "frame", "coupon"]
+def views(kit: Kit) -> dict[str, str]:
+    """What is drawn beside single parts, as ``part`` names it, and what that is."""
+    joints: dict[str, str] = {}
+    for one in kit.joints:
+        name = f"Joint {one.name}".strip()
+        joints |= {one.view: f"{name} assembled", f"{one.view}_exploded": f"{name} pulled apart"}
+    plates, others = ("plate", "joint_plate"), ("frame", "coupon")
+    return {n: _VIEWS[n] for n in plates} | joints | {n: _VIEWS[n] for n in others}
 
 
-def label(choice: str) -> str:
-    """What a choice of ``part`` is, in a few words.
-
-    Examples
-    --------
-    >>> label("half_A2_over")
-    'Locking half A2 - second shape'
-    """
-    if choice in _LABELS:
-        return _LABELS[choice]
-    kind, _, rest = choice.partition("_")
-    number, _, turned = rest.partition("_")
-    if kind == "half":
-        return f"Locking half {number}" + (" - second shape" if turned else "")
-    if kind == "joint":
-        return f"Joint {number} " + ("pulled apart" if turned else "assembled")
-    words = {"connector": "Loose connector {} for the rim"}.get(kind, _LABELS[kind] + " {}")
-    return words.format(number)
+def label(part: Part) -> str:
+    """What a part is, in a few words."""
+    if part.name in _PARTS:
+        return _PARTS[part.name]
+    number = part.name.partition("_")[2].removesuffix("_over")
+    said = " ".join(_ROLES[part.role].format(number).split())
+    return f"{said} - second shape" if part.role == "half" and part.ends[0].over else said
 
 
 def sections(kit: Kit) -> tuple[Section, ...]:
     """Everything a user can set, in the order of the file."""
-    choices = [*kit.parts, *views(kit)]
-    widget = "[" + ", ".join(f"{c}:{label(c)}" for c in choices) + "]"
+    choices = {name: label(part) for name, part in kit.parts.items()} | views(kit)
+    widget = "[" + ", ".join(f"{name}:{text}" for name, text in choices.items()) + "]"
     shown = f'"{kit.joints[0].view}"'
     live: dict[str, list[Parameter]] = {}
     for name, (title, text, step) in _LIVE.items():
@@ -143,7 +143,7 @@ def sections(kit: Kit) -> tuple[Section, ...]:
         Section("Part", (Parameter("part", shown, widget, "What to draw"),)),
         *(Section(title, tuple(rows)) for title, rows in live.items()),
         _NUMBERS,
-        *([_cells(kit)] if kit.rows else []),
+        *([_cells(kit)] if kit.cells else []),
         Section(
             "Plate",
             (

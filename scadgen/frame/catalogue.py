@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import partial
 from types import MappingProxyType
 from typing import Any
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import Frame
+from scadgen.frame.periodic import Tiling
 from scadgen.frame.simple import ladder, ring, strip
 from scadgen.frame.tilings import laves, rectangular, rhombic, uniform
 
-__all__ = ["ALIASES", "NAMES", "OPTIONS", "Family", "named"]
+__all__ = ["ALIASES", "NAMES", "OPTIONS", "Family", "NamedTiling", "named"]
 
 #: What each option means; a family takes some of them.
 OPTIONS: Mapping[str, str] = MappingProxyType(
@@ -38,22 +39,61 @@ _AREA = ("rows", "columns", "radius", "outline")
 
 
 @dataclass(frozen=True, slots=True)
+class NamedTiling:
+    """A tiling by its name.
+
+    Parameters
+    ----------
+    name
+        One of `NAMES` whose frames are blocks of cells.
+    options
+        Options of the family that say how large it is.
+    """
+
+    name: str
+    options: Mapping[str, float] = field(default_factory=dict)
+
+    def made(self) -> Tiling:
+        """The tiling.
+
+        Raises
+        ------
+        InputError
+            A name or option that does not exist, or what the family refuses.
+        """
+        made = _family(self.name, self.options).make(**self.options)
+        if not isinstance(made, Tiling):
+            msg = f"frame {self.name}: has no cells in rows and columns"
+            raise InputError(msg)
+        return replace(made, name=self.name)
+
+    @property
+    def regular(self) -> bool:
+        """Whether its kits have the weave of regular joints, and keys in rows."""
+        return NAMES[self.name].regular
+
+
+@dataclass(frozen=True, slots=True)
 class Family:
     """Frames of one name.
 
     Parameters
     ----------
     make
-        Makes one; takes `options` by name, all of them optional.
+        Makes one, or the tiling that such frames are blocks of; takes those of `options` that
+        say how large it is by name, all of them optional.
     options
         Names of its options, keys of `OPTIONS`.
     text
         What it is, in a few words.
+    regular
+        Whether its kits have the weave of regular joints, and keys in rows.
     """
 
-    make: Callable[..., Frame]
+    make: Callable[..., Frame | Tiling]
     options: tuple[str, ...]
     text: str
+    regular: bool = False
 
     @property
     def defaults(self) -> dict[str, object]:
@@ -62,8 +102,8 @@ class Family:
         return {n: known[n].default if n in known else None for n in self.options}
 
 
-def _uniform(configuration: str, text: str) -> Family:
-    return Family(partial(uniform, configuration), ("edge_length", *_AREA), text)
+def _uniform(configuration: str, text: str, *, regular: bool = False) -> Family:
+    return Family(partial(uniform, configuration), ("edge_length", *_AREA), text, regular)
 
 
 def _laves(configuration: str, text: str) -> Family:
@@ -73,8 +113,8 @@ def _laves(configuration: str, text: str) -> Family:
 #: The families by name: common ones first, then uniform tilings, then duals.
 NAMES: Mapping[str, Family] = MappingProxyType(
     {
-        "hexagonal": _uniform("6.6.6", "regular hexagons"),
-        "square": _uniform("4.4.4.4", "squares"),
+        "hexagonal": _uniform("6.6.6", "regular hexagons", regular=True),
+        "square": _uniform("4.4.4.4", "squares", regular=True),
         "triangular": _uniform("3.3.3.3.3.3", "equilateral triangles"),
         "rectangular": Family(rectangular, ("width", "height", *_AREA), "rectangles"),
         "rhombic": Family(rhombic, ("angle", "edge_length", *_AREA), "rhombs in leaning rows"),
@@ -141,6 +181,15 @@ def named(name: str, **options: Any) -> Frame:  # noqa: ANN401 -- each family ha
     InputError
         A name or option that is not one of those, or what the family refuses.
     """
+    family = _family(name, options)
+    area = {n: options.pop(n) for n in _AREA if n in options}
+    made = family.make(**options)
+    frame = made.fill(**area) if isinstance(made, Tiling) else made
+    return replace(frame, name=ALIASES.get(name, name))
+
+
+def _family(name: str, options: Iterable[str]) -> Family:
+    """The family of this name, which has these options."""
     family = NAMES.get(ALIASES.get(name, name))
     if family is None:
         msg = f"frame {name!r}: must be one of {', '.join(NAMES)}"
@@ -149,4 +198,4 @@ def named(name: str, **options: Any) -> Frame:  # noqa: ANN401 -- each family ha
     if strange:
         msg = f"frame {name}: no option {', '.join(strange)}; it has {', '.join(family.options)}"
         raise InputError(msg)
-    return replace(family.make(**options), name=ALIASES.get(name, name))
+    return family

@@ -14,7 +14,7 @@ from scadgen.errors import InputError, InvariantError
 from scadgen.frame.planarity import check_planar, where
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["LARGEST", "Ends", "Frame", "make_frame", "vertex_pairs"]
+__all__ = ["LARGEST", "Ends", "Frame", "canonical_order", "make_frame", "vertex_pairs"]
 
 #: Coordinates go up to this, in mm: a kilometre, where 9 decimals are still kept.
 LARGEST = 1e6
@@ -179,9 +179,21 @@ def make_frame(name: str, vertices: ArrayLike, edges: ArrayLike) -> Frame:
     pairs = vertex_pairs(edges, len(points))
     _check_pairs(pairs, points)
     check_planar(points, pairs)
-    order = np.lexsort((points[:, 0], points[:, 1]))
+    order = canonical_order(points)
     pairs = np.sort(np.argsort(order)[pairs], axis=1)
     return Frame(name, points[order], pairs[np.lexsort(pairs.T[::-1])])
+
+
+def canonical_order(points: Floats) -> Ints:
+    """The order of a frame's vertices: ascending by y, then x, as they are rounded.
+
+    Parameters
+    ----------
+    points
+        ``(n, 2) float``, in mm.
+    """
+    rounded = points.round(_DECIMALS)
+    return np.asarray(np.lexsort((rounded[:, 0], rounded[:, 1])), dtype=np.int64)
 
 
 def _points(vertices: ArrayLike) -> Floats:

@@ -33,7 +33,7 @@ from scadgen.frame.graph import Frame
 from scadgen.frame.sameness import group_values
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["ANGLE", "Places", "Refused", "choose_keys"]
+__all__ = ["ANGLE", "Keys", "Places", "Refused", "choose_keys", "turned_alike"]
 
 #: Directions as near as this are the same, in radians; twice what sameness allows a joint.
 ANGLE = 2e-4
@@ -113,6 +113,11 @@ class Places:
     directions: Sequence[Floats]
     refused: Sequence[Refused] = ()
 
+    def direction(self, vertex: int, slot: int) -> float:
+        """Direction of a slot at a vertex, in radians."""
+        own = float(self.directions[int(self.shape_of[vertex])][slot])
+        return float(self.turn[vertex]) + (-own if self.over[vertex] else own)
+
     def refuse(self, vertex: int, keys: Collection[int]) -> bool:
         """Whether the joint at a vertex is to be kept out, if it has these keys."""
         directions = self.directions[int(self.shape_of[vertex])]
@@ -129,7 +134,7 @@ def choose_keys(places: Places, parts: Callable[[Keys], int]) -> Keys:
     parts
         How many parts a choice needs.
     """
-    for group in (places.shape_of, *_turned_alike(places)):
+    for group in (places.shape_of, *turned_alike(places)):
         alike = _alike(places, group, 1, parts)
         if alike is not None:
             return alike
@@ -153,7 +158,7 @@ def _same_angles(angles: Floats, turn: float = 2 * math.pi) -> Ints:
     return np.asarray(place[group])
 
 
-def _turned_alike(places: Places) -> Iterator[Ints]:
+def turned_alike(places: Places) -> Iterator[Ints]:
     """A number for each vertex, the same for joints of one shape with the same side up.
 
     Then the same for those that are turned alike as well.

@@ -13,7 +13,8 @@ from scadgen.frame.alike import Ends, Slots
 from scadgen.frame.graph import Frame
 from scadgen.frame.hosts import Hosted, Shape, hosted
 from scadgen.frame.keys import Places, Refused, choose_keys
-from scadgen.frame.sameness import Sameness
+from scadgen.frame.rows import choose_keys_in_rows
+from scadgen.frame.sameness import Sameness, joint_name
 from scadgen.joint.symmetry import Symmetry
 from scadgen.solid.affine import Floats, Ints
 
@@ -69,6 +70,14 @@ class Kinds:
         """The shape of a kind's joints."""
         return self.shapes[self.kinds[kind].shape]
 
+    def name(self, kind: int) -> str:
+        """A kind's letter; empty where there is one kind."""
+        return joint_name(kind) if len(self.kinds) > 1 else ""
+
+    def from_first_key(self, kind: int, slot: int) -> int:
+        """A slot of a kind's shape as it is counted from the kind's first key."""
+        return (slot - self.kinds[kind].keys[0]) % len(self.shape(kind).directions)
+
     @cached_property
     def symmetries(self) -> tuple[Symmetry, ...]:
         """Which slots of each kind are alike, keys and all."""
@@ -113,7 +122,12 @@ class Kinds:
 
 
 def choose_kinds(
-    frame: Frame, same: Sameness, *, rim: bool = True, refused: Sequence[Refused] = ()
+    frame: Frame,
+    same: Sameness,
+    *,
+    rim: bool = True,
+    refused: Sequence[Refused] = (),
+    in_rows: bool = False,
 ) -> Kinds:
     """Fill up rims with caps, and choose the keys.
 
@@ -128,6 +142,13 @@ def choose_kinds(
         lone ends of edges get some.
     refused
         Joints to keep out, by other keys, as far as that goes.
+    in_rows
+        Whether keys are to be such that the frame is rows that slide onto parallel pegs.
+
+    Raises
+    ------
+    InputError
+        There are no such rows.
     """
     found = hosted(frame, same, rim=rim)
 
@@ -144,7 +165,8 @@ def choose_kinds(
         [shape.directions for shape in found.shapes],
         refused,
     )
-    chosen = choose_keys(places, lambda keys: _parts(gathered(keys), frame, same))
+    choose = choose_keys_in_rows if in_rows else choose_keys
+    chosen = choose(places, lambda keys: _parts(gathered(keys), frame, same))
     return _as_most_lie(gathered(chosen), frame)
 
 

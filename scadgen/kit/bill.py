@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from scadgen.errors import InputError
-from scadgen.frame.layout import bill
+from scadgen.frame.placement import bill
 from scadgen.kit.model import DENSITIES, Kit, Slicing
 from scadgen.solid.mesh import volume
 
@@ -97,7 +97,7 @@ def lines(kit: Kit) -> tuple[Line, ...]:
     slicing = kit.slicing or Slicing("", {}, {})
     counts = bill(kit.placements, kit.parts)
     small = {part: count for part, count in counts.items() if part not in large}
-    pegs = [part for part in small if part.startswith("peg")]
+    pegs = [part for part in small if kit.parts[part].role == "peg"]
     for part in pegs[1:]:
         small[pegs[0]] += small.pop(part)
     found = []

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from scadgen.frame.alike import Slots
 from scadgen.frame.kinds import Kinds
@@ -70,6 +70,13 @@ class Elements:
 
     kinds: Mapping[str, Element]
     laid: Sequence[Laid]
+
+    def renamed(self, name: Callable[[Element], str]) -> Elements:
+        """The same with other names."""
+        return Elements(
+            {name(element): element for element in self.kinds.values()},
+            [replace(one, name=name(self.kinds[one.name])) for one in self.laid],
+        )
 
 
 def edge_elements(

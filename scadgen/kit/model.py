@@ -9,13 +9,28 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from scadgen.element.squares import Key
+from scadgen.frame.catalogue import NamedTiling
 from scadgen.frame.graph import Frame
 from scadgen.frame.keys import Refused
 from scadgen.frame.placement import Placement
 from scadgen.interlock.path import Path
+from scadgen.kit.cells import Cells
 from scadgen.solid.affine import AffineSolid, Range
+from scadgen.solid.pose import Pose
 
-__all__ = ["DENSITIES", "RIMS", "Joint", "Kit", "Slicing", "Way"]
+__all__ = [
+    "DENSITIES",
+    "PART_ROLES",
+    "RIMS",
+    "Joint",
+    "Kit",
+    "Part",
+    "PartEnd",
+    "Slicing",
+    "Vertex",
+    "Way",
+]
 
 #: Materials to print with, and the density of each in g/cm3, as most makers state them.
 DENSITIES: Mapping[str, float] = {
@@ -29,6 +44,96 @@ DENSITIES: Mapping[str, float] = {
 
 #: What is done where a joint at the rim lacks edges of an inner one.
 RIMS = ("caps", "open")
+
+#: What a part is for.
+PART_ROLES = ("element", "connector", "half", "peg", "tube")
+
+
+@dataclass(frozen=True, slots=True)
+class PartEnd:
+    """What a part ends in.
+
+    Parameters
+    ----------
+    joint
+        The kind of joint that it belongs to, by name: the first of those that have it.
+    slot
+        Whose connector it is there, counted from the first key; None for a key's end, which
+        fits every slot with a key.
+    over
+        Whether the connector is turned over; of a half, whether it is half B, turned over, where
+        that is another shape than half A.
+    """
+
+    joint: str
+    slot: int | None
+    over: bool = False
+
+    @property
+    def is_key(self) -> bool:
+        """Whether it is a key's end: a socket, or a fixed peg."""
+        return self.slot is None
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class Part(AffineSolid):
+    """A printed part: an affine solid that knows what it is for.
+
+    Parameters
+    ----------
+    role
+        One of `PART_ROLES`.
+    ends
+        What it ends in: near and far end of an element, the one of a connector, a half or a
+        loose peg, none of a tube.
+    length
+        Of an element or a tube, in edge lengths; else 0.
+    """
+
+    role: str
+    ends: tuple[PartEnd, ...] = ()
+    length: float = 0.0
+
+    @classmethod
+    def of(
+        cls, solid: AffineSolid, role: str, ends: tuple[PartEnd, ...] = (), length: float = 0.0
+    ) -> Part:
+        """A solid as a part."""
+        return cls(
+            name=solid.name,
+            coefficients=solid.coefficients,
+            triangles=solid.triangles,
+            facets=solid.facets,
+            role=role,
+            ends=ends,
+            length=length,
+        )
+
+    @property
+    def is_element(self) -> bool:
+        """Whether it is an edge element."""
+        return self.role == "element"
+
+    @property
+    def fits_one_way(self) -> bool:
+        """Whether it is an element whose ends differ."""
+        return self.is_element and self.ends[0] != self.ends[1]
+
+
+@dataclass(frozen=True, slots=True)
+class Vertex:
+    """What stands at a vertex of the frame.
+
+    Parameters
+    ----------
+    joint
+        Name of the kind of joint.
+    pose
+        Where it stands, its first key along x; its position in edge lengths.
+    """
+
+    joint: str
+    pose: Pose
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,6 +195,8 @@ class Joint:
         Which of the edges have that part turned over.
     weave
         Name of the weave and its parameters, as `Weave.as_dict` gives them.
+    key
+        What its keys are like.
     pieces
         What meets there, assembled: half A and half B of each key, the other connectors
         counter-clockwise, the pegs.
@@ -108,6 +215,7 @@ class Joint:
     connectors: tuple[str, ...]
     over: tuple[int, ...]
     weave: Mapping[str, float | int | str]
+    key: Key
     pieces: tuple[Placement, ...]
     figures: Mapping[str, float]
     verdicts: Mapping[str, str] = field(default_factory=dict)
@@ -133,19 +241,21 @@ class Joint:
         """The parts that are halves."""
         return frozenset(p.part for p in self.pieces if p.role in ("half_a", "half_b"))
 
+    def is_cap(self, piece: Placement) -> bool:
+        """Whether one of its pieces is in a slot that has no tube wherever this joint stands."""
+        return piece.slot in self.caps
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Kit:
     """Everything generated for one frame.
 
     Parameters
     ----------
-    frame
-        Its name.
+    name
+        What its files are called.
     key
         One of `KEYS`.
-    rows, columns
-        Cells of a hexagonal or square frame, at least 1, which can be set later; otherwise 0.
     detail
         Name of the detail level.
     command
@@ -155,35 +265,46 @@ class Kit:
     ranges
         What each live parameter may be; every one in `values` has at least one.
     parts
-        The affine solids by name, edge elements first.
+        The parts by name, edge elements first.
     joints
         The kinds of joints.
+    frame
+        The frame, in mm; that of a single joint has no edge.
+    vertices
+        What stands at each of the frame's vertices.
     placements
-        Where everything stands.
-    graph
-        The frame where it has no rows and columns, in mm.
+        Where everything stands: the elements by edge, then the pieces by vertex.
+    tiling
+        Whose cells the frame is, if it has rows and columns that can be set.
+    cells
+        What stands in each of them.
+    rows, columns
+        How many there are; 0 without.
     rim
         Whether joints at its rim have caps where they lack edges; one of `RIMS`.
     refused
-        Joints of a graph that were kept out, by other keys.
+        Joints that were kept out, by other keys.
     material
         What it is to be printed with; one of `DENSITIES`.
     slicing
         What printing it takes, if a slicer was asked.
     """
 
-    frame: str
+    name: str
     key: str
-    rows: int
-    columns: int
     detail: str
     command: str
     values: Mapping[str, float]
     ranges: tuple[Range, ...]
-    parts: Mapping[str, AffineSolid]
+    parts: Mapping[str, Part]
     joints: tuple[Joint, ...]
+    frame: Frame | None
+    vertices: tuple[Vertex, ...]
     placements: tuple[Placement, ...]
-    graph: Frame | None = None
+    tiling: NamedTiling | None = None
+    cells: Cells | None = None
+    rows: int = 0
+    columns: int = 0
     rim: str = "caps"
     refused: tuple[Refused, ...] = ()
     material: str = "PLA"
@@ -192,15 +313,11 @@ class Kit:
     @property
     def elements(self) -> list[str]:
         """The edge elements among its parts."""
-        halves_and_pegs = {p.part for one in self.joints for p in one.pieces if p.role != "cap"}
-        others = halves_and_pegs.union(*(one.connectors for one in self.joints))
-        return [name for name in self.parts if name not in others]
+        return [name for name, part in self.parts.items() if part.is_element]
 
-    @property
-    def vertices(self) -> list[tuple[float, float]]:
-        """Where its frame's joints stand, in edge lengths: ascending by y, then x, from joint 1."""
-        places = {placement.at for placement in self.placements if placement.role == "half_a"}
-        return sorted(places, key=lambda at: (at[1], at[0]))
+    def joint(self, name: str) -> Joint:
+        """The kind of joint with this name."""
+        return next(joint for joint in self.joints if joint.name == name)
 
     @property
     def proved(self) -> bool:

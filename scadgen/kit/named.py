@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Hashable, Mapping, Sequence
-from dataclasses import astuple, dataclass
+from dataclasses import astuple, dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -25,7 +25,7 @@ from scadgen.joint.symmetry import Symmetry
 from scadgen.kit.pieces import Pieces
 from scadgen.solid.affine import Floats
 
-__all__ = ["Named", "alike_pieces"]
+__all__ = ["Named", "NamedPiece", "alike_pieces"]
 
 #: Decimals to which keys are compared, in sides.
 _DECIMALS = 9
@@ -103,6 +103,29 @@ def _turn(piece: Piece, other: Piece, *, turned: bool) -> bool | None:
     return True if turned and piece.is_like(other.turned_over()) else None
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class NamedPiece:
+    """A connector or a half that is a part, with the first place that has it.
+
+    Parameters
+    ----------
+    number, slot
+        The kind of joint, and the slot.
+    key
+        What the keys of that joint are like.
+    piece
+        Its shape.
+    second
+        Whether it is half B turned over, where that is another shape than half A.
+    """
+
+    number: int
+    slot: int
+    key: Key
+    piece: Piece
+    second: bool = False
+
+
 @dataclass(frozen=True, eq=False)
 class Named:
     """The parts of a frame's joints.
@@ -113,10 +136,13 @@ class Named:
         Of each kind of joint.
     symmetries
         Which slots of each are alike by angles and keys.
+    plain
+        Whether there is but one connector and one half, so that names need no letters.
     """
 
     pieces: Sequence[Pieces]
     symmetries: Sequence[Symmetry]
+    plain: bool = False
 
     @cached_property
     def sockets(self) -> list[int]:
@@ -165,16 +191,25 @@ class Named:
     def connector(self, number: int, slot: int) -> tuple[str, bool]:
         """The part that is a slot's connector, and whether it is turned over."""
         what, over = self.slots.what[number, slot], self.slots.over[number, slot]
-        return _name("connector", *divmod(int(what), self.slots.most)), bool(over)
+        return self._name("connector", *divmod(int(what), self.slots.most)), bool(over)
 
     @property
-    def connectors(self) -> dict[str, tuple[Key, Piece]]:
+    def connectors(self) -> dict[str, NamedPiece]:
         """The connectors that are different parts, by name."""
         return {
-            _name("connector", number, slot): (one.key, one.connectors[slot])
-            for number, slot in self._different
-            for one in [self.pieces[number]]
+            self._name("connector", *place): self._named(place, self._connector_at(place))
+            for place in self._different
         }
+
+    def _connector_at(self, place: _Place) -> Piece:
+        number, slot = place
+        return self.pieces[number].connectors[slot]
+
+    def _named(self, place: _Place, piece: Piece) -> NamedPiece:
+        return NamedPiece(*place, self.pieces[place[0]].key, piece)
+
+    def _name(self, what: str, number: int, slot: int) -> str:
+        return what if self.plain else f"{what}_{joint_name(number)}{slot + 1}"
 
     @cached_property
     def _own_halves(self) -> dict[tuple[_Place, str], Piece]:
@@ -191,7 +226,7 @@ class Named:
         """What they are called."""
         groups = [self.sockets[number] for (number, _), _ in self._own_halves]
         found = alike_pieces([*self._own_halves.values()], groups, turned=False)
-        names = [_name("half", *place) + which for place, which in self._own_halves]
+        names = [self._name("half", *place) + which for place, which in self._own_halves]
         return {own: names[n] for own, (n, _) in zip(self._own_halves, found, strict=True)}
 
     def half_names(self, number: int, slot: int) -> tuple[str, str]:
@@ -201,11 +236,13 @@ class Named:
         return (half_b, half_a) if over else (half_a, half_b)
 
     @property
-    def halves(self) -> dict[str, tuple[Key, Piece]]:
+    def halves(self) -> dict[str, NamedPiece]:
         """The halves that are different parts, by name."""
-        found: dict[str, tuple[Key, Piece]] = {}
+        found: dict[str, NamedPiece] = {}
         for own, name in self._half_names.items():
-            found.setdefault(name, (self.pieces[own[0][0]].key, self._own_halves[own]))
+            place, which = own
+            first = self._named(place, self._own_halves[own])
+            found.setdefault(name, replace(first, second=bool(which)))
         return found
 
     @cached_property
@@ -218,13 +255,9 @@ class Named:
         return f"peg_{joint_name(self._pegs[number])}" if any(self._pegs) else "peg"
 
     @property
-    def pegs(self) -> dict[str, Key]:
-        """The pegs that are different parts, by name."""
-        return {self.peg(number): self.pieces[number].key for number in dict.fromkeys(self._pegs)}
-
-
-def _name(what: str, number: int, slot: int) -> str:
-    return f"{what}_{joint_name(number)}{slot + 1}"
+    def pegs(self) -> dict[str, int]:
+        """The pegs that are different parts, by name: the kind of joint that each is of."""
+        return {self.peg(number): number for number in dict.fromkeys(self._pegs)}
 
 
 def _is_even(piece: Piece) -> bool:

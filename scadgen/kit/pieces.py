@@ -91,11 +91,7 @@ class Pieces:
     def figures(self) -> dict[str, float]:
         """What is known about them, in sides."""
         return {
-            "tube_start_sides": self.key.tube_start,
-            "pad_sides": self.key.pad,
             "ring_hole_sides": self.key_hole,
-            "window_half_width_sides": self.key.window,
-            "window_depth_sides": self.key.depth,
             "clearance_limit_sides": self.clearance_limit,
             "thinnest_arm_sides": self.arm,
             "domain_volume_sides3": self.volume,

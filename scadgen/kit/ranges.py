@@ -32,7 +32,7 @@ _SLACK = 1e-9
 
 
 def ranges(key: Key, clearance_limit: float, hole: float) -> tuple[Range, ...]:
-    """The range of every live parameter of a kit.
+    """The range of every live parameter of a kit but the edge length.
 
     Parameters
     ----------
@@ -117,12 +117,6 @@ def _fixed(key: Key) -> list[Range]:
             Linear({"side": depth, "peg_clearance": -1.0}),
             "the peg slips out, or its socket breaks into a wall",
         ),
-        Range(
-            "edge_length",
-            Linear({"side": 2 * key.tube_start + TUBE, "clearance": 2.0}),
-            Linear({}, LONGEST),
-            "two joints need room, and half a side of tube between them",
-        ),
     ]
 
 
@@ -134,12 +128,6 @@ def _loose(key: Key, hole: float) -> list[Range]:
             Linear({"side": through + 0.2, "clearance": 1.0}),
             Linear({"side": hole - WALL, "peg_clearance": -2.0}),
             "the peg reaches from the ring's hole into the tube, and fits into the hole",
-        ),
-        Range(
-            "edge_length",
-            Linear({"side": 2 * key.pad + TUBE, "peg_length": 2.0, "peg_clearance": 2.0}),
-            Linear({}, LONGEST),
-            "the sockets at a tube's two ends must not meet",
         ),
     ]
 

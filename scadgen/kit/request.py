@@ -5,24 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from types import MappingProxyType
 
 from scadgen.errors import InputError
+from scadgen.frame.catalogue import NamedTiling
 from scadgen.frame.graph import Frame
 from scadgen.frame.keys import Refused
-from scadgen.frame.layout import LAYOUTS
 from scadgen.frame.placement import KEYS
 from scadgen.joint.joint import DETAILS
-from scadgen.joint.weave import Weave, built_in
+from scadgen.joint.weave import Weave
+from scadgen.kit.cells import check_cells
 from scadgen.kit.model import RIMS
 from scadgen.kit.pieces import Pieces
 from scadgen.kit.ranges import WALL, check_values
 from scadgen.solid.affine import PARAMETERS, Range
 
-__all__ = ["CLEARANCE", "VALENCE", "Request", "default_values", "peg_length"]
-
-#: Edges at each vertex of the frames that have rows and columns.
-VALENCE: Mapping[str, int] = MappingProxyType({"hexagonal": 3, "square": 4})
+__all__ = ["CLEARANCE", "Request", "default_values", "peg_length"]
 
 #: Gap between mating faces that is not said, in mm.
 CLEARANCE = 0.2
@@ -36,35 +33,39 @@ _LONGEST = 1e6
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What kit to make.
+    """What kit to make: of a frame, or of rows and columns of a tiling.
 
     Parameters
     ----------
+    name
+        What the kit's files are called.
     frame
-        ``hexagonal`` or ``square``; or the name of `graph`.
-    key
-        ``fixed`` or ``loose``; with a graph only ``loose``, which closes any loop.
+        The frame, in mm; None if there is a tiling.
+    tiling
+        A tiling; rows and columns of its cells can be set later.
     rows, columns
-        Cells of the frame; with a graph 0.
+        How many of them.
+    key
+        One of `KEYS`.  A fixed peg is part of a tube, which rows that slide need.
     detail
         Name of a level of `DETAILS`.
     weave
-        The weave; by default the built-in one for the frame's joints and the key style.  With
-        a graph each joint has that of its own angles, and there must be none.
+        The weave of all joints, which must be regular; by default each joint has that of its own
+        angles, or of `regular`.
+    regular
+        Whether all joints are one regular joint with its built-in weave, and keys in rows.
     values
         Live parameters, in mm; those not given follow from the side.  A bore above zero
-        makes a bored kit.  An edge length makes a graph as large that its shortest edge is
+        makes a bored kit.  An edge length makes a frame as large that its shortest edge is
         as long.
     command
-        The command line that makes this kit again.
-    graph
-        Any frame, in mm.
+        The command line that makes the kit again.
     rim
-        One of `RIMS`; for a graph.
+        One of `RIMS`.
     resizable
-        Whether a graph may be made as large as its joints need.
+        Whether the frame may be made as large as its joints need.
     refused
-        Joints of a graph to keep out, by other keys, as far as that goes.
+        Joints to keep out, by other keys, as far as that goes.
 
     Raises
     ------
@@ -72,15 +73,17 @@ class Request:
         A name or a count that does not exist.
     """
 
-    frame: str
-    key: str = "fixed"
+    name: str
+    frame: Frame | None = None
+    tiling: NamedTiling | None = None
     rows: int = 2
     columns: int = 2
+    key: str = "loose"
     detail: str = "standard"
     weave: Weave | None = None
+    regular: bool = False
     values: Mapping[str, float] = field(default_factory=dict)
     command: str = ""
-    graph: Frame | None = None
     rim: str = "caps"
     resizable: bool = False
     refused: tuple[Refused, ...] = ()
@@ -88,7 +91,6 @@ class Request:
     def __post_init__(self) -> None:
         """Refuse names that do not exist."""
         for name, value, known in (
-            ("frame", self.frame, VALENCE if self.graph is None else (self.frame,)),
             ("key", self.key, KEYS),
             ("detail", self.detail, DETAILS),
             ("rim", self.rim, RIMS),
@@ -96,22 +98,15 @@ class Request:
             if value not in known:
                 msg = f"{name} = {value!r}: must be one of {', '.join(known)}"
                 raise InputError(msg)
-        if self.frame.lower() == "kit":
-            msg = f"frame = {self.frame!r}: would name its files as kit.json; another name works"
+        if self.name.lower() == "kit":
+            msg = f"frame = {self.name!r}: would name its files as kit.json; another name works"
             raise InputError(msg)
         self._check_values()
-        if self.graph is not None and self.key != "loose":
-            grids = " and ".join(VALENCE)
-            msg = (
-                f"key = {self.key!r}: must be loose, so that each joint closes with all its tubes "
-                f"in place; only {grids} frames of rows and columns have fixed pegs"
-            )
-            raise InputError(msg)
-        if self.graph is None:
-            LAYOUTS[self.frame](self.rows, self.columns, self.key)
-        elif self.weave:
+        if self.weave and not self.regular:
             msg = f"weave {self.weave.name}: each joint of this frame has one of its own"
             raise InputError(msg)
+        if self.tiling is not None:
+            check_cells(self.rows, self.columns)
 
     def _check_values(self) -> None:
         """Refuse live parameters that do not exist, and lengths that are none."""
@@ -125,14 +120,9 @@ class Request:
                 raise InputError(msg)
 
     @property
-    def chosen_weave(self) -> Weave:
-        """The weave given, or the built-in one."""
-        return self.weave or built_in(self.valence, self.key)
-
-    @property
-    def valence(self) -> int:
-        """Edges at each vertex of a hexagonal or square frame."""
-        return VALENCE[self.frame]
+    def side(self) -> float:
+        """Side of the tubes, in mm."""
+        return self.values.get("side", 10.0)
 
     @property
     def bored(self) -> bool:
@@ -150,8 +140,8 @@ def default_values(
     InputError
         The side is not in its range; all other defaults are shares of it.
     """
-    check_values([r for r in limits if r.parameter == "side"], {"side": 10.0, **request.values})
-    side = request.values.get("side", 10.0)
+    side = request.side
+    check_values([r for r in limits if r.parameter == "side"], {**request.values, "side": side})
     clearance = request.values.get("clearance", CLEARANCE)
     gap = request.values.get("peg_clearance", clearance)
     keys = [one.key for one in pieces]
@@ -171,11 +161,7 @@ def default_values(
         "peg_clearance": gap,
         "peg_chamfer": round(0.05 * side, 9),
     }
-    values |= {name: v for name, v in request.values.items() if name != "bore" or v > 0}
-    if "edge_length" not in request.values:
-        least = max(r.low(values) for r in limits if r.parameter == "edge_length")
-        values["edge_length"] = max(6, math.ceil(least / side + 0.9)) * side
-    return values
+    return values | {name: v for name, v in request.values.items() if name != "bore" or v > 0}
 
 
 def peg_length(through: float, side: float, clearance: float) -> float:

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from scadgen.frame.layout import bill, joint
-from scadgen.frame.placement import ELEMENTS, PARTS
+from scadgen.frame.placement import ELEMENTS, Placement, bill
 from scadgen.kit.model import Joint, Kit
-from scadgen.kit.request import VALENCE
 from scadgen.solid.mesh import volume
 
 __all__ = ["check_sense"]
@@ -42,14 +40,7 @@ def check_sense(kit: Kit, document: Mapping[str, Any]) -> None:
 
 def _check_names(kit: Kit) -> None:
     """Refuse a kit whose parts are not those that its frame and its joints need."""
-    if kit.graph is None:
-        if len(kit.joints) != 1 or kit.joints[0].pieces != joint(VALENCE[kit.frame], kit.key):
-            msg = "the joint is not the frame's"
-            raise ValueError(msg)
-        if set(kit.parts) != set(PARTS):
-            msg = f"parts must be {', '.join(PARTS)}"
-            raise ValueError(msg)
-    _check_pieces(kit)
+    _check_places(kit)
     used = {p.part for p in kit.placements}
     used.update(*({p.part for p in one.pieces} | {*one.connectors} for one in kit.joints))
     if missing := used - set(kit.parts):
@@ -57,27 +48,53 @@ def _check_names(kit: Kit) -> None:
         raise ValueError(msg)
 
 
-def _check_pieces(kit: Kit) -> None:
-    """Refuse placements that are not pieces of the kind of joint that they say they are of."""
-    pieces = {one.name: {(p.role, p.part) for p in one.pieces} for one in kit.joints}
-    if len(pieces) < len(kit.joints):
+def _check_places(kit: Kit) -> None:
+    """Refuse placements that do not belong to the vertices and edges of the frame."""
+    joints = {one.name: one for one in kit.joints}
+    if len(joints) < len(kit.joints):
         names = [one.name for one in kit.joints]
         msg = f"joints: two are called {next(n for n in names if names.count(n) > 1)!r}"
         raise ValueError(msg)
+    if kit.frame is None or len(kit.vertices) != len(kit.frame.vertices):
+        msg = "vertices: as many as the frame has must be there"
+        raise ValueError(msg)
+    if strange := {v.joint for v in kit.vertices} - joints.keys():
+        msg = f"vertices: there is no joint {min(strange)!r}"
+        raise ValueError(msg)
+    edges = kit.frame.edges.tolist()
+    if [p.edge for p in kit.placements if p.is_element] != [*range(len(edges))]:
+        msg = "placements: each edge must have one element, in order"
+        raise ValueError(msg)
     for place in kit.placements:
-        if place.role in ELEMENTS:
-            good = not place.joint
-        else:
-            good = (place.role, place.part) in pieces.get(place.joint, ())
-        if not good:
-            msg = f"placements: {place.part} as {place.role} is no piece of joint {place.joint!r}"
+        if not _is_sensible(kit, joints, place):
+            msg = f"placements: {place.part} as {place.role} does not belong where it is"
             raise ValueError(msg)
+
+
+def _is_sensible(kit: Kit, joints: Mapping[str, Joint], place: Placement) -> bool:
+    """Whether a placement is on its edge, or is a piece of the joint at its vertex."""
+    for end in place.ends:
+        if end.vertex >= len(kit.vertices):
+            return False
+        if end.slot >= len(joints[kit.vertices[end.vertex].joint].turns):
+            return False
+    if place.edge is not None and kit.frame is not None:
+        ends = sorted(end.vertex for end in place.ends)
+        return place.role in ELEMENTS and ends == kit.frame.edges[place.edge].tolist()
+    joint = joints[kit.vertices[place.vertex].joint]
+    pieces = {(p.role, p.part, p.slot) for p in joint.pieces}
+    return len(place.ends) == 1 and (place.role, place.part, place.slot) in pieces
 
 
 def _check_joint(one: Joint) -> None:
     """Refuse a kind of joint whose lists do not belong together."""
     count = len(one.turns)
-    if len(one.connectors) != count or not {*one.keys, *one.caps, *one.over} <= {*range(count)}:
+    slots = {piece.slot for piece in one.pieces}
+    if (
+        len(one.connectors) != count
+        or not slots <= {*range(count)}
+        or not {*one.keys, *one.caps, *one.over} <= {*range(count)}
+    ):
         msg = f"{one.title}: its lists do not belong together"
         raise ValueError(msg)
     _check_ways(one)

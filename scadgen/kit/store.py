@@ -9,30 +9,40 @@ from __future__ import annotations
 import json
 import math
 import pathlib
-from collections.abc import Mapping
+from dataclasses import replace
 from importlib import resources
 from typing import Any, NoReturn
 
-import numpy as np
-
 from scadgen import __version__
 from scadgen.errors import InputError, InvariantError, KitError
+from scadgen.frame.catalogue import NamedTiling
 from scadgen.frame.graph import make_frame
 from scadgen.frame.keys import Refused
-from scadgen.frame.layout import LAYOUTS, bill
-from scadgen.frame.placement import Placement
+from scadgen.frame.placement import bill
 from scadgen.kit.bill import as_json, with_bill
-from scadgen.kit.model import Joint, Kit
+from scadgen.kit.build import laid_out
+from scadgen.kit.entries import (
+    cells_entry,
+    joint_entry,
+    linear_entry,
+    part_entry,
+    placement_entry,
+    pose_entry,
+    read_cells,
+    read_joint,
+    read_part,
+    read_placement,
+    read_pose,
+)
+from scadgen.kit.model import Kit, Vertex
 from scadgen.kit.ranges import check_values
 from scadgen.kit.sense import check_sense
-from scadgen.kit.ways import read_way, way_entry
-from scadgen.solid.affine import PARAMETERS, AffineSolid, Linear, Range
-from scadgen.solid.mesh import edge_faults
+from scadgen.solid.affine import PARAMETERS, Linear, Range
 
 __all__ = ["FORMAT", "VERSION", "dumps", "load", "loads", "summary"]
 
 FORMAT = "scadgen-kit"
-VERSION = 4
+VERSION = 5
 
 
 def dumps(kit: Kit) -> str:
@@ -46,25 +56,28 @@ def dumps(kit: Kit) -> str:
         "ranges": [
             {
                 "parameter": r.parameter,
-                "low": _linear(r.low),
-                "high": _linear(r.high),
+                "low": linear_entry(r.low),
+                "high": linear_entry(r.high),
                 "reason": r.reason,
             }
             for r in kit.ranges
         ],
     }
-    if kit.graph is not None:
-        vertices, edges = kit.graph.vertices.tolist(), kit.graph.edges.tolist()
-        document["graph"] = {"name": kit.graph.name, "vertices": vertices, "edges": edges}
-        document["rim"] = kit.rim
-        document["refused"] = [
-            {"turns": list(one.turns), "keys": list(one.keys)} for one in kit.refused
-        ]
-        document["placements"] = [_placement(p) for p in kit.placements]
+    if kit.cells is not None and kit.tiling is not None:
+        document["tiling"] = {"name": kit.tiling.name, "options": dict(kit.tiling.options)}
+        document["cells"] = cells_entry(kit.cells)
+    elif kit.frame is not None:
+        document["frame"] = {
+            "name": kit.frame.name,
+            "vertices": kit.frame.vertices.tolist(),
+            "edges": kit.frame.edges.tolist(),
+        }
+        document["vertices"] = [{"joint": v.joint} | pose_entry(v.pose) for v in kit.vertices]
+        document["placements"] = [placement_entry(p) for p in kit.placements]
     head = json.dumps(document, indent=1, allow_nan=False).removesuffix("\n}")
     parts = ",\n".join(
-        f'  "{name}": {json.dumps(_solid(solid), separators=(",", ":"), allow_nan=False)}'
-        for name, solid in kit.parts.items()
+        f'  "{name}": {json.dumps(part_entry(part), separators=(",", ":"), allow_nan=False)}'
+        for name, part in kit.parts.items()
     )
     return f'{head},\n "parts": {{\n{parts}\n }}\n}}\n'
 
@@ -76,8 +89,10 @@ def summary(kit: Kit) -> dict[str, Any]:
 
 def _summary(kit: Kit, *, ways: bool) -> dict[str, Any]:
     return {
-        "frame": kit.frame,
+        "name": kit.name,
         "key": kit.key,
+        "rim": kit.rim,
+        "refused": [{"turns": list(one.turns), "keys": list(one.keys)} for one in kit.refused],
         "rows": kit.rows,
         "columns": kit.columns,
         "detail": kit.detail,
@@ -85,42 +100,7 @@ def _summary(kit: Kit, *, ways: bool) -> dict[str, Any]:
         "bill": bill(kit.placements, kit.parts),
         "bill_of_materials": as_json(kit),
         "proved": kit.proved,
-        "joints": [_joint_entry(joint, ways=ways) for joint in kit.joints],
-    }
-
-
-def _joint_entry(joint: Joint, *, ways: bool) -> dict[str, Any]:
-    """A kind of joint as JSON values."""
-    entry: dict[str, Any] = {
-        "name": joint.name,
-        "turns": list(joint.turns),
-        "keys": list(joint.keys),
-        "caps": list(joint.caps),
-        "connectors": list(joint.connectors),
-        "over": list(joint.over),
-        "weave": dict(joint.weave),
-        "pieces": [_placement(p) for p in joint.pieces],
-        "figures": dict(joint.figures),
-        "verdicts": dict(joint.verdicts),
-    }
-    return entry | ({"ways": [way_entry(way) for way in joint.ways]} if ways else {})
-
-
-def _placement(p: Placement) -> dict[str, Any]:
-    found = {"part": p.part, "at": list(p.at), "turn": p.turn, "flip": p.flip, "role": p.role}
-    return found | ({"joint": p.joint} if p.joint else {})
-
-
-def _linear(linear: Linear) -> dict[str, Any]:
-    return {"terms": dict(linear.terms), "constant": linear.constant}
-
-
-def _solid(solid: AffineSolid) -> dict[str, Any]:
-    points = {name: (factors + 0.0).tolist() for name, factors in solid.coefficients.items()}
-    return {
-        "points": points,
-        "triangles": solid.triangles.tolist(),
-        "facets": solid.facets.tolist(),
+        "joints": [joint_entry(joint, ways=ways) for joint in kit.joints],
     }
 
 
@@ -171,9 +151,7 @@ def loads(text: str) -> Kit:
             _refuse(f"no range for {', '.join(sorted(missing))}")
         check_values(kit.ranges, kit.values)
         check_sense(kit, document)
-        # Kits of earlier scadgens have none.
-        if "bill_of_materials" in document:
-            kit = with_bill(kit, document["bill_of_materials"])
+        kit = with_bill(kit, document["bill_of_materials"])
     except (InputError, InvariantError, ValueError, KeyError, TypeError, OverflowError) as error:
         _refuse(str(error))
     return kit
@@ -193,9 +171,11 @@ def _parsed(text: str) -> dict[str, Any]:
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         _refuse(f"format is not {FORMAT}")
     if document.get("version") != VERSION:
+        command = document.get("command")
+        again = f": {command}" if isinstance(command, str) and command.isprintable() else ""
         msg = (
             f"kit version {document.get('version')!r}: this scadgen {__version__} reads version "
-            f"{VERSION}; use the scadgen that made it, or make it again"
+            f"{VERSION}; make it again{again}"
         )
         raise KitError(msg)
     return document
@@ -226,22 +206,9 @@ def _check_schema(document: dict[str, Any]) -> None:
 
 
 def _kit(document: dict[str, Any]) -> Kit:
-    parts = {name: _read_solid(name, entry) for name, entry in document["parts"].items()}
-    frame, key = document["frame"], document["key"]
-    rows, columns = int(document["rows"]), int(document["columns"])
-    graph = document.get("graph")
-    if graph is None:
-        if frame not in LAYOUTS:
-            msg = f"frame {frame!r}: has no graph, and is not one of {', '.join(LAYOUTS)}"
-            raise ValueError(msg)
-        placements = LAYOUTS[frame](rows, columns, key)
-    else:
-        placements = tuple(map(_read_placement, document["placements"]))
-    return Kit(
-        frame=frame,
-        key=key,
-        rows=rows,
-        columns=columns,
+    kit = Kit(
+        name=document["name"],
+        key=document["key"],
         detail=document["detail"],
         command=document["command"],
         values={p: document["values"][p] for p in PARAMETERS if p in document["values"]},
@@ -249,64 +216,24 @@ def _kit(document: dict[str, Any]) -> Kit:
             Range(r["parameter"], Linear(**r["low"]), Linear(**r["high"]), r["reason"])
             for r in document["ranges"]
         ),
-        parts=parts,
-        joints=tuple(map(_read_joint, document["joints"])),
-        placements=placements,
-        graph=graph and make_frame(graph["name"], graph["vertices"], graph["edges"]),
-        rim=document.get("rim", "caps"),
+        parts={name: read_part(name, entry) for name, entry in document["parts"].items()},
+        joints=tuple(map(read_joint, document["joints"])),
+        frame=None,
+        vertices=(),
+        placements=(),
+        rim=document["rim"],
         refused=tuple(
-            Refused(tuple(one["turns"]), tuple(one["keys"])) for one in document.get("refused", ())
+            Refused(tuple(one["turns"]), tuple(one["keys"])) for one in document["refused"]
         ),
     )
-
-
-def _read_joint(entry: Mapping[str, Any]) -> Joint:
-    return Joint(
-        name=entry["name"],
-        turns=tuple(entry["turns"]),
-        keys=tuple(entry["keys"]),
-        caps=tuple(entry["caps"]),
-        connectors=tuple(entry["connectors"]),
-        over=tuple(entry["over"]),
-        weave=entry["weave"],
-        pieces=tuple(map(_read_placement, entry["pieces"])),
-        figures=entry["figures"],
-        verdicts=entry["verdicts"],
-        ways=tuple(read_way(way) for way in entry["ways"]),
+    if "cells" in document:
+        tiling = NamedTiling(document["tiling"]["name"], document["tiling"]["options"])
+        kit = replace(kit, tiling=tiling, cells=read_cells(document["cells"]))
+        return laid_out(kit, document["rows"], document["columns"])
+    drawn = document["frame"]
+    return replace(
+        kit,
+        frame=make_frame(drawn["name"], drawn["vertices"], drawn["edges"]),
+        vertices=tuple(Vertex(v["joint"], read_pose(v)) for v in document["vertices"]),
+        placements=tuple(map(read_placement, document["placements"])),
     )
-
-
-def _read_placement(p: Mapping[str, Any]) -> Placement:
-    at = p["at"][0], p["at"][1]
-    return Placement(p["part"], at, p["turn"], p["flip"], p["role"], p.get("joint", ""))
-
-
-def _read_solid(name: str, entry: Mapping[str, Any]) -> AffineSolid:
-    """A solid from its tables.
-
-    Raises
-    ------
-    ValueError
-        They are not finite numbers of the right shape, or not a closed surface.
-    """
-    points = {p: np.array(rows, dtype=np.float64) for p, rows in entry["points"].items()}
-    triangles = np.array(entry["triangles"])
-    facets = np.array(entry["facets"])
-    count = {table.shape for table in points.values()}
-    shapes = len(count) == 1 and all(len(shape) == 2 and shape[1] == 3 for shape in count)
-    whole = triangles.dtype.kind == "i" and facets.dtype.kind == "i"
-    if (
-        not shapes
-        or not whole
-        or triangles.shape[1:] != (3,)
-        or facets.shape != triangles.shape[:1]
-    ):
-        msg = f"part {name}: tables of the wrong shape"
-        raise ValueError(msg)
-    if triangles.min() < 0 or triangles.max() >= count.pop()[0] or len(edge_faults(triangles)):
-        msg = f"part {name}: its triangles are not a closed surface"
-        raise ValueError(msg)
-    if not all(math.isfinite(table.sum()) for table in points.values()):
-        msg = f"part {name}: a coordinate is not a finite number"
-        raise ValueError(msg)
-    return AffineSolid(name, points, triangles.astype(np.int64), facets.astype(np.int64))

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from scadgen.interlock.path import Path
-from scadgen.plan.standing import Origin
+from scadgen.solid.pose import Pose
 
 __all__ = ["Choice", "cut_ways", "inverse", "reflected"]
 
@@ -30,13 +30,13 @@ class Choice:
     path
         A way, in mm, its origin at the joint.
     origin
-        Where that is in the frame.
+        Where that is in the frame, in edge lengths.
     """
 
     parts: frozenset[int]
     joint: int
     path: Path
-    origin: Origin
+    origin: Pose
 
 
 def cut_ways(path: Path, up: float) -> Iterator[tuple[Path, float]]:

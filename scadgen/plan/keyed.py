@@ -59,7 +59,7 @@ def proved_kit(
         frame holds is only preferred; its plan proves it.
     """
     with _kept(means or Means()) as kept:
-        if request.graph is None:
+        if request.regular:
             return proved(build(request, kept, done), kept, say)
         return _Keyed(kept, done, say).held(request)
 
@@ -151,13 +151,11 @@ def _kept(means: Means) -> Iterator[Means]:
 
 def _nowhere(kit: Kit, joint: Joint, error: JointError) -> JointError:
     """The error that tells where such a joint stands, and what would help."""
-    halves = [place for place in kit.placements if place.role == "half_a"]
-    places = list(dict.fromkeys(place.at for place in halves))
-    at = next(place.at for place in halves if place.joint == joint.name)
-    point = kit.values["edge_length"] * np.array(at)
+    vertex = next(n for n, one in enumerate(kit.vertices) if one.joint == joint.name)
+    point = kit.values["edge_length"] * np.array(kit.vertices[vertex].pose.at)
     gaps = np.diff([*joint.turns, 360.0]).tolist()
     msg = (
-        f"{corner(places.index(at), point, gaps)}: {error.fault}; with other keys it is refused as "
+        f"{corner(vertex, point, gaps)}: {error.fault}; with other keys it is refused as "
         "well; other angles help, or --unchecked makes the kit all the same"
     )
     return JointError(msg, error.joint, error.fault)

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from scadgen.interlock.path import Path
-from scadgen.plan.standing import Origin, Standing
+from scadgen.plan.standing import Standing
+from scadgen.solid.pose import Pose
 
 __all__ = ["Move", "Plan", "Step"]
 
@@ -24,7 +25,7 @@ class Move:
     way
         Number of its way out in the plan's ways; backwards it is the way in.
     origin
-        Where that way's coordinates are in the frame.
+        Where that way's coordinates are in the frame, in edge lengths.
     gap
         Smallest gap on the way, in mm; 0 if it is not proved.
     reason
@@ -34,7 +35,7 @@ class Move:
     parts: tuple[int, ...]
     joint: int
     way: int
-    origin: Origin
+    origin: Pose
     gap: float
     reason: str
 

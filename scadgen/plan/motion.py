@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from scadgen.plan.model import Move, Plan
+from scadgen.solid.affine import Floats
 
 __all__ = ["Motion", "joints_of", "motion_of", "towards"]
 
@@ -63,15 +64,18 @@ def motion_of(plan: Plan, move: Move) -> Motion:
     far = np.linalg.norm(gone, axis=1)
     x, y, z = gone[int(np.argmax(far >= _LAST * side))] if far.max() >= _LAST * side else gone[-1]
     flat = np.hypot(x, y) > _FLAT * abs(z)
-    rise = move.origin.sign * float(gone[-1, 2])
+    rise = float(move.origin.turn(gone[-1])[2])
     spin = np.linalg.norm(way.steps()[:, 3:], axis=1).max()
     return Motion(
         above=int(np.sign(rise)) if abs(rise) >= _RISE * side else 0,
-        towards=move.origin.direction(float(np.degrees(np.arctan2(-y, -x)))) % 360
-        if flat
-        else None,
+        towards=_seen_from_above(move.origin.turn([-x, -y, 0.0])) if flat else None,
         tilted=bool(np.degrees(spin) >= _TILT),
     )
+
+
+def _seen_from_above(way: Floats) -> float:
+    """A direction as an angle, in degrees."""
+    return float(np.degrees(np.arctan2(way[1], way[0]))) % 360
 
 
 def joints_of(plan: Plan, number: int, move: Move) -> list[int]:

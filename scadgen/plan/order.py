@@ -119,7 +119,7 @@ class _Planner:
                     site, way = self._standing.sites[number], queue.pop(0)
                     parts = frozenset(site.parts[n] for n in way.moving)
                     path = way.path.scaled(self._side)
-                    wave.append(self._out(Choice(parts, number, path, site.origin)))
+                    wave.append(self._out(Choice(parts, number, path, site.pose)))
             self._take(wave, f"{what} out")
             self._steps.append(Step(what, tuple(wave)))
 
@@ -190,7 +190,7 @@ class _Planner:
         moving = sorted(choice.parts)
 
         def ways(path: Path) -> Iterator[Path]:
-            for cut, up in cut_ways(path, choice.origin.sign):
+            for cut, up in cut_ways(path, choice.origin.z[2]):
                 yield self._prover.lifted(cut, moving, choice.origin, up)
 
         move = self._tried(choice, ways(choice.path))
@@ -219,7 +219,7 @@ class _Planner:
         reason = ""
         if found.blocking is not None:
             place = self._standing.kit.placements[found.blocking]
-            x, y = self._unit * np.array(place.at)
+            x, y, _ = self._unit * np.array(place.pose.at)
             reason = f"no way is proved past {place.part} at {x:.4g}, {y:.4g}"
         parts = tuple(sorted(choice.parts))
         return Move(parts, choice.joint, found.way, choice.origin, found.gap, reason)

@@ -8,6 +8,7 @@ from scadgen.kit.model import Kit
 from scadgen.plan.standing import Standing
 from scadgen.solid.affine import Floats
 from scadgen.solid.gap import solid
+from scadgen.solid.pose import OVER, Pose
 
 __all__ = ["Outlines"]
 
@@ -26,23 +27,23 @@ class Outlines:
 
     def __init__(self, standing: Standing) -> None:
         self._standing, kit = standing, standing.kit
-        kinds = sorted({(p.part, p.flip) for p in kit.placements})
+        kinds = sorted({(p.part, p.pose.over) for p in kit.placements})
         self._number = {kind: number for number, kind in enumerate(kinds)}
         self._lines = [_outline(kit, *kind) for kind in kinds]
 
     def name(self, part: int) -> str:
         """The id of a part's outline."""
         place = self._standing.kit.placements[part]
-        return f"p{self._number[place.part, place.flip]}"
+        return f"p{self._number[place.part, place.pose.over]}"
 
     def corners(self, part: int) -> Floats:
         """Corners of a part's outline where it stands, ``(k, 2)``, in mm."""
         place = self._standing.kit.placements[part]
-        lines = self._lines[self._number[place.part, place.flip]]
-        turn = np.radians(place.turn)
-        c, s = np.cos(turn), np.sin(turn)
-        at = self._standing.kit.values["edge_length"] * np.array(place.at)
-        return np.asarray(np.vstack(lines) @ np.array([[c, s], [-s, c]]) + at)
+        lines = self._lines[self._number[place.part, place.pose.over]]
+        unit = self._standing.kit.values["edge_length"]
+        turned = Pose(place.pose.at, place.pose.x).scaled(unit)
+        flat = np.vstack(lines)
+        return turned.apply(np.column_stack([flat, np.zeros(len(flat))]))[:, :2]
 
     def shapes(self, parts: set[int], scale: float) -> str:
         """Outlines of some parts at their origins, y down, to be used by name."""
@@ -52,11 +53,12 @@ class Outlines:
         )
 
 
-def _outline(kit: Kit, name: str, flip: bool) -> list[Floats]:  # noqa: FBT001
+def _outline(kit: Kit, name: str, over: bool) -> list[Floats]:  # noqa: FBT001
     """Lines around a part and around its holes, in mm."""
     from manifold3d import CrossSection, FillRule  # slow to import
 
-    points = kit.parts[name].points(kit.values) * ([1, -1, -1] if flip else [1, 1, 1])
+    points = kit.parts[name].points(kit.values)
+    points = OVER.apply(points) if over else points
     seen = solid(points, kit.parts[name].triangles).project().to_polygons()
     whole = CrossSection(seen, FillRule.Positive).simplify(_OFF * kit.values["side"])
     return [np.asarray(line, dtype=np.float64) for line in whole.to_polygons()]

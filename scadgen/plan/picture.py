@@ -131,13 +131,13 @@ class _Page:
             yield "</g>"
 
     def _turn(self, part: int) -> float:
-        return -self._plan.standing.kit.placements[part].turn % 360
+        return -self._plan.standing.kit.placements[part].pose.degrees % 360
 
     def _joints(self) -> Iterator[str]:
         """Numbers of the joints."""
         for number, place, busy in self._shown.joints():
             site = self._plan.standing.sites[number]
-            at, kind = self._on_page(place), site.kind.name + "*" * site.origin.over
+            at, kind = self._on_page(place), site.kind.name + "*" * site.pose.over
             self._labels.keep(at, self._size * (1.9 if kind else 1.0))
             yield joint_mark(at, number + 1, kind, self._size, busy=busy)
 
@@ -187,7 +187,7 @@ class _Page:
             if motion.towards is not None:
                 yield "along"
         named = shown.moving | (self._plan.first() if self._number == 1 else frozenset())
-        over = any(self._plan.standing.sites[n].origin.over for n, *_ in shown.joints())
+        over = any(self._plan.standing.sites[n].pose.over for n, *_ in shown.joints())
         if over or any(self._plan.standing.kit.placements[n].other_way_up for n in named):
             yield "other"
         if any(site.kind.name for site in self._plan.standing.sites):

@@ -18,15 +18,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
-from scadgen.check.geometry import standing as stand_at
 from scadgen.check.ways import LEAST, LOOK
 from scadgen.frame.placement import Placement
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.path import Path
 from scadgen.kit.ways import WAY_DECIMALS
-from scadgen.plan.standing import Origin, Standing
+from scadgen.plan.standing import Standing
 from scadgen.solid.affine import Floats, Ints
-from scadgen.solid.gap import solid
+from scadgen.solid.gap import solid as manifold_of
+from scadgen.solid.pose import Pose
 
 if TYPE_CHECKING:
     from manifold3d import Manifold
@@ -47,10 +47,6 @@ _STEP = 0.5
 
 #: How far above all others a part that is lifted ends, in sides.
 _ABOVE = 0.1
-
-
-#: The frame's own coordinates.
-_FRAME = Origin((0.0, 0.0), 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +85,7 @@ class Prover:
         self._side, self._unit = kit.values["side"], kit.values["edge_length"]
         self._least = LEAST * kit.values["clearance"]
         self._look = LOOK * kit.values["clearance"]
-        self._bodies: dict[tuple[str, bool], _Body] = {}
+        self._bodies: dict[str, _Body] = {}
         self._numbers: dict[bytes, int] = {}
         self._asides: dict[tuple[object, ...], float] = {}
 
@@ -98,12 +94,10 @@ class Prover:
         """Middle line of each part in the plane, in mm."""
         found: list[shapely.Geometry] = []
         for number, place in enumerate(self._standing.kit.placements):
-            start = self._unit * np.array(place.at)
+            start = self._unit * np.array(place.pose.at)[:2]
             if number in self._standing.elements:
-                turn = math.radians(place.turn)
-                ahead = np.array([math.cos(turn), math.sin(turn)])
-                end = start + self._unit * self._standing.length(number) * ahead
-                found.append(shapely.LineString([start, end]))
+                ahead = self._standing.length(number) * np.array(place.pose.x)[:2]
+                found.append(shapely.LineString([start, start + self._unit * ahead]))
             else:
                 found.append(shapely.Point(start))
         return found
@@ -114,7 +108,7 @@ class Prover:
         widths = {}
         for number, place in enumerate(self._standing.kit.placements):
             if place.part not in widths:
-                points = self._body(place, _FRAME).points
+                points = self._body(place).points
                 along = points[:, 0].copy()
                 if number in self._standing.elements:
                     length = self._unit * self._standing.length(number)
@@ -131,19 +125,19 @@ class Prover:
             self.ways.append(Path.through(written[:-1], written[-1, :3]))
         return self._numbers[key]
 
-    def mesh(self, part: int, origin: Origin) -> Mesh:
+    def mesh(self, part: int, origin: Pose) -> Mesh:
         """A part's mesh where it stands as a way sees it, in mm."""
         place = self._standing.kit.placements[part]
-        pose = self._pose(place, origin)
-        triangles = self._standing.kit.parts[place.part].triangles
-        return self._body(place, origin).points @ pose[:3, :3].T + pose[:3, 3], triangles
+        points = self._pose(place, origin).apply(self._body(place).points)
+        return points, self._standing.kit.parts[place.part].triangles
 
-    def place(self, part: int, origin: Origin) -> tuple[str, bool, bytes]:
+    def place(self, part: int, origin: Pose) -> tuple[object, ...]:
         """What a part is and where it stands as a way sees it: the same for what is alike."""
         place = self._standing.kit.placements[part]
-        return place.part, place.flip != origin.over, self._pose(place, origin).tobytes()
+        pose = self._pose(place, origin)
+        return place.part, pose.at, pose.x, pose.z
 
-    def lifted(self, path: Path, moving: Sequence[int], origin: Origin, up: float) -> Path:
+    def lifted(self, path: Path, moving: Sequence[int], origin: Pose, up: float) -> Path:
         """A way, and then straight up, or down, out of the plane of the frame."""
         last = path.poses[-1]
         low = math.inf
@@ -164,7 +158,7 @@ class Prover:
         path: Path,
         moving: Sequence[int],
         rest: Iterable[int],
-        origin: Origin,
+        origin: Pose,
     ) -> Found:
         """Whether some parts get out on a way, past the rest.
 
@@ -190,7 +184,7 @@ class Prover:
                 worst = min(worst, gap)
         return Found(way, worst, None)
 
-    def _near(self, way: int, part: int, others: Ints, origin: Origin) -> list[int]:
+    def _near(self, way: int, part: int, others: Ints, origin: Pose) -> list[int]:
         """Those of some parts that a part may come near on a way."""
         aside = self._aside(way, part, origin)
         outlines = np.array(self._outlines, dtype=object)[others]
@@ -198,7 +192,7 @@ class Prover:
         limit = aside + self._widths[part] + self._widths[others]
         return [int(n) for n in others[away < limit]]
 
-    def _aside(self, way: int, part: int, origin: Origin) -> float:
+    def _aside(self, way: int, part: int, origin: Pose) -> float:
         """How far a part goes aside on a way at most, in mm: not up, which brings nothing near."""
         key = way, *self.place(part, origin)
         if key not in self._asides:
@@ -211,42 +205,30 @@ class Prover:
             self._asides[key] = far + step  # between two poses it may go on, but no farther
         return self._asides[key]
 
-    def _points(self, part: int, origin: Origin) -> Floats:
+    def _points(self, part: int, origin: Pose) -> Floats:
         """Corners of a part's hull in the way's coordinates, in mm."""
         place = self._standing.kit.placements[part]
-        pose = self._pose(place, origin)
-        return self._body(place, origin).hull @ pose[:3, :3].T + pose[:3, 3]
+        return self._pose(place, origin).apply(self._body(place).hull)
 
-    def _body(self, place: Placement, origin: Origin) -> _Body:
-        """A part at its own origin, turned over if it is so as a way sees it."""
-        key = place.part, place.flip != origin.over
-        if key not in self._bodies:
+    def _body(self, place: Placement) -> _Body:
+        """A part at its own origin."""
+        if place.part not in self._bodies:
             kit = self._standing.kit
-            own = Placement(place.part, (0.0, 0.0), 0.0, key[1], place.role)
-            self._bodies[key] = _Body(stand_at(kit.parts[place.part], own, kit.values))
-        return self._bodies[key]
+            solid = kit.parts[place.part]
+            self._bodies[place.part] = _Body((solid.points(kit.values), solid.triangles))
+        return self._bodies[place.part]
 
-    def _pose(self, place: Placement, origin: Origin) -> Floats:
-        """Where a part's body is as a way sees it, rounded so that what is alike is the same."""
-        back = math.radians(-origin.turn)
-        off = self._unit * (np.array(place.at) - np.array(origin.at))
-        x = math.cos(back) * off[0] - math.sin(back) * off[1]
-        y = origin.sign * (math.sin(back) * off[0] + math.cos(back) * off[1])
-        turn = origin.sign * (place.turn - origin.turn)
-        angle = math.radians(round(turn % 360, _DECIMALS) % 360)
-        c, s = math.cos(angle), math.sin(angle)
-        pose = np.eye(4)
-        pose[:2, :2] = [[c, -s], [s, c]]
-        pose[:2, 3] = round(x, _DECIMALS) + 0.0, round(y, _DECIMALS) + 0.0
-        return pose
+    def _pose(self, place: Placement, origin: Pose) -> Pose:
+        """Where a part is as a way sees it, in mm, rounded so that what is alike is the same."""
+        return (origin.inverse() @ place.pose).scaled(self._unit).rounded(_DECIMALS)
 
-    def _gap(self, way: int, part: int, other: int, origin: Origin) -> float:
+    def _gap(self, way: int, part: int, other: int, origin: Pose) -> float:
         """Smallest gap of two parts while one moves, 0 if it is not proved."""
         key = way, self.place(part, origin), self.place(other, origin)
         if key not in self.known:
             mover, stays = (self._standing.kit.placements[n] for n in (part, other))
-            bodies = self._body(mover, origin), self._body(stays, origin)
-            places = self._pose(mover, origin), self._pose(stays, origin)
+            bodies = self._body(mover), self._body(stays)
+            places = self._pose(mover, origin).matrix, self._pose(stays, origin).matrix
             self.known[key] = self._narrowest(self.ways[way], bodies, places)
         return self.known[key]
 
@@ -297,6 +279,6 @@ class _Body:
 
     def __init__(self, mesh: Mesh) -> None:
         self.points = mesh[0]
-        self.manifold: Manifold = solid(*mesh)
+        self.manifold: Manifold = manifold_of(*mesh)
         self.hull: Floats = np.asarray(self.manifold.hull().to_mesh64().vert_properties[:, :3])
         self.low, self.high = self.points.min(axis=0), self.points.max(axis=0)

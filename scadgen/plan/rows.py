@@ -9,8 +9,9 @@ import numpy as np
 from scadgen.interlock.path import Path
 from scadgen.plan.choice import Choice
 from scadgen.plan.slides import ALONG, clusters, tubes_of
-from scadgen.plan.standing import Origin, Standing
+from scadgen.plan.standing import Standing
 from scadgen.solid.affine import Floats
+from scadgen.solid.pose import Pose
 
 __all__ = ["Rows"]
 
@@ -42,7 +43,7 @@ class Rows:
         self.left.remove(frozenset(parts))
 
     def _up(self, row: Collection[int]) -> float:
-        return float(np.mean([self._standing.kit.placements[n].at[1] for n in row]))
+        return float(np.mean([self._standing.kit.placements[n].pose.at[1] for n in row]))
 
     def _way(self, row: frozenset[int]) -> Floats | None:
         """The direction in which a row slides off all pegs, if there is one."""
@@ -68,14 +69,14 @@ class Rows:
         far = ahead - behind + side
         steps = np.zeros((2, 6))
         steps[1, 0] = side * np.ceil(far / side)
-        turn = float(np.degrees(np.arctan2(way[1], way[0])))
         path = Path.through(steps, np.zeros(3))
-        return Choice(row, joint, path, Origin(standing.sites[joint].at, turn))
+        x, y, z = way.tolist()
+        return Choice(row, joint, path, Pose(standing.sites[joint].pose.at, (x, y, z)))
 
     def _span(self, parts: Collection[int], way: Floats) -> tuple[float, float]:
         """Between what planes across a way some parts are, in mm."""
         kit = self._standing.kit
         some = sorted(parts)
-        at = kit.values["edge_length"] * np.array([kit.placements[n].at for n in some]) @ way
+        at = kit.values["edge_length"] * np.array([kit.placements[n].pose.at for n in some]) @ way
         reach = np.array([self._standing.reach(n) for n in some])
         return float((at - reach).min()), float((at + reach).max())

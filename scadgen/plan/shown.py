@@ -65,7 +65,7 @@ class Shown:
     def at(self, part: int) -> Floats:
         """Where a part's origin is drawn."""
         place = self._plan.standing.kit.placements[part]
-        return self._unit * np.array(place.at) + self.away(part)
+        return self._unit * np.array(place.pose.at)[:2] + self.away(part)
 
     def box(self) -> tuple[Floats, Floats]:
         """Lower and upper corner of all that is drawn."""
@@ -78,7 +78,9 @@ class Shown:
         standing = self._plan.standing
         if part in standing.elements:
             half = self._unit * standing.length(part) / 2
-            return np.asarray(self.at(part) + half * ahead(standing.kit.placements[part].turn))
+            return np.asarray(
+                self.at(part) + half * np.array(standing.kit.placements[part].pose.x)[:2]
+            )
         corners = self._outlines.corners(part)
         return np.asarray((corners.min(axis=0) + corners.max(axis=0)) / 2 + self.away(part))
 
@@ -92,7 +94,7 @@ class Shown:
             own = site.pieces("half_a", "half_b", "cap")
             if there.intersection(site.parts[piece] for piece in own):
                 away = self.away(site.parts[site.pieces("half_a")[0]])
-                yield number, self._unit * np.array(site.at) + away, number in busy
+                yield number, self._unit * np.array(site.pose.at)[:2] + away, number in busy
 
     def marks(self, move: Move) -> Iterator[Floats]:
         """Where it is marked how a move goes in: at its part, or before each of its pegs."""
@@ -105,20 +107,20 @@ class Shown:
             site, moving = sites[number], set(move.parts)
             halves = {site.parts[n] for n in site.pieces("half_a")}
             side = 1.0 if halves & moving else -1.0
-            start = side * self._side * site.kind.figures["tube_start_sides"]
+            start = side * self._side * site.kind.key.tube_start
             gap = (start - self._far / 2) * ahead(motion.towards)
-            yield self._unit * np.array(site.at) + gap
+            yield self._unit * np.array(site.pose.at)[:2] + gap
 
     def _end(self, part: int, joint: int) -> Floats:
         """The end of an element at a joint; of another part, where its tube would start."""
         standing = self._plan.standing
         site = standing.sites[joint]
-        centre = self._unit * np.array(site.at)
+        centre = self._unit * np.array(site.pose.at)[:2]
         if part not in standing.elements:
-            start = self._side * site.kind.figures["tube_start_sides"]
-            return np.asarray(centre + start * ahead(standing.kit.placements[part].turn))
+            start = self._side * site.kind.key.tube_start
+            return np.asarray(centre + start * np.array(standing.kit.placements[part].pose.x)[:2])
         way = self.middle(part) - centre
-        reach = self._side * (site.kind.figures["tube_start_sides"] + _BEYOND)
+        reach = self._side * (site.kind.key.tube_start + _BEYOND)
         return np.asarray(centre + way * min(reach / float(np.linalg.norm(way)), 1.0))
 
 

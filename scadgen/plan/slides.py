@@ -7,7 +7,6 @@ along nothing but itself slides off.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -34,7 +33,7 @@ class Tube:
     element, half
         Numbers of its part and of the key's half A.
     out
-        ``(2,) float``: unit vector along which it slides out of the joint.
+        ``(3,) float``: unit vector along which it slides out of the joint.
     """
 
     element: int
@@ -48,9 +47,7 @@ def tubes_of(standing: Standing) -> list[Tube]:
     for site in standing.sites:
         for half, element in standing.keys(site).items():
             if element is not None:
-                angle = site.direction(half)
-                out = np.array([math.cos(angle), math.sin(angle)])
-                found.append(Tube(element, site.parts[half], out))
+                found.append(Tube(element, site.parts[half], site.direction(half)))
     return found
 
 

@@ -7,21 +7,20 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
 from scadgen import __version__
-from scadgen.frame.layout import bill
+from scadgen.frame.placement import bill
 from scadgen.kit.ways import WAY_DECIMALS
 from scadgen.plan.model import Move, Plan
 from scadgen.plan.motion import joints_of, motion_of
 from scadgen.plan.pegs import count_pegs
 from scadgen.plan.whole import Whole
 from scadgen.plan.words import finished, movable, sentence
+from scadgen.solid.pose import Pose
 
 __all__ = ["FORMAT", "VERSION", "dumps", "plan_entry"]
 
 FORMAT = "scadgen-plan"
-VERSION = 3
+VERSION = 4
 
 #: Decimals of lengths in mm and of angles in degrees.
 _DECIMALS = 6
@@ -46,7 +45,7 @@ def plan_entry(plan: Plan, whole: Whole, pictures: Sequence[str] = ()) -> dict[s
         "format": FORMAT,
         "version": VERSION,
         "generator": f"scadgen {__version__}",
-        "frame": kit.frame,
+        "frame": kit.name,
         "key": kit.key,
         "proved": plan.proved,
         "pegs": {
@@ -59,10 +58,9 @@ def plan_entry(plan: Plan, whole: Whole, pictures: Sequence[str] = ()) -> dict[s
         "parts": [
             {
                 "part": p.part,
-                "at_mm": _rounded(unit * np.array(p.at)),
-                "turn_deg": round(p.turn, _DECIMALS),
-                "flip": p.flip,
                 "role": p.role,
+                **_pose(p.pose, unit),
+                "ends": [[end.vertex + 1, end.slot] for end in p.ends],
             }
             for p in kit.placements
         ],
@@ -106,10 +104,10 @@ def _joints(plan: Plan) -> Iterable[dict[str, Any]]:
         yield {
             "joint": number,
             "kind": site.kind.name,
-            "at_mm": _rounded(unit * np.array(site.at)),
+            **_pose(site.pose, unit),
             "keys": [
                 {
-                    "turn_deg": round(float(np.degrees(site.direction(half))) % 360, _DECIMALS),
+                    "way": _rounded(site.direction(half)),
                     "element": element,
                 }
                 for half, element in plan.standing.keys(site).items()
@@ -128,12 +126,16 @@ def _move(plan: Plan, number: int, move: Move) -> dict[str, Any]:
         "towards_deg": None if towards is None else round(towards, _DECIMALS) % 360,
         "tilted": motion.tilted,
         "way": move.way,
-        "at_mm": _rounded(unit * np.array(move.origin.at)),
-        "turn_deg": round(move.origin.turn, _DECIMALS),
-        "flip": move.origin.over,
+        **_pose(move.origin, unit),
         "gap_mm": round(move.gap, _DECIMALS) if math.isfinite(move.gap) else None,
         "reason": move.reason,
     }
+
+
+def _pose(pose: Pose, unit: float) -> dict[str, Any]:
+    """A pose in mm."""
+    at = [unit * v for v in pose.at]
+    return {"at_mm": _rounded(at), "x": _rounded(pose.x), "z": _rounded(pose.z)}
 
 
 def _rounded(values: Iterable[float], decimals: int = _DECIMALS) -> list[float]:

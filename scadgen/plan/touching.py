@@ -11,7 +11,6 @@ from collections.abc import Callable
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from scadgen.check.locking import TOUCH
 from scadgen.check.pieces import key_tubes, pieces
@@ -64,11 +63,8 @@ class Touching:
             parts = np.array(own + [site.tubes.get(n, -1) for n in kind.tubes])
             first, second = parts[contacts.first], parts[contacts.second]
             kept = np.flatnonzero((first >= 0) & (second >= 0) & (first != second))
-            origin = site.origin
-            turning = Rotation.from_euler("z", origin.turn, degrees=True).as_matrix()
-            turning = turning @ np.diag([1.0, origin.sign, origin.sign])
-            points = contacts.points[kept] @ turning.T + unit * np.array([*site.at, 0.0])
-            normals = contacts.normals[kept] @ turning.T
+            pose = site.pose.scaled(unit)
+            points, normals = pose.apply(contacts.points[kept]), pose.turn(contacts.normals[kept])
             found.append((points, normals, first[kept], second[kept]))
         return Contacts(*(np.concatenate(column) for column in zip(*found, strict=True)))
 
@@ -79,7 +75,7 @@ class _Kind:
     def __init__(self, standing: Standing, kind: Joint) -> None:
         kit = standing.kit
         values = {**kit.values, "clearance": 0.0, "peg_clearance": 0.0}
-        tubes = key_tubes(kit, kind, values) if kit.key == "loose" else {}
+        tubes = key_tubes(kind, values) if kit.key == "loose" else {}
         self.tubes = tuple(tubes)
         self._meshes: list[Mesh] = [*pieces(kit, kind, values), *tubes.values()]
         self.contacts = find_contacts(self._meshes, TOUCH * values["side"])

@@ -77,8 +77,8 @@ class Trees:
             if ways:
                 path = ways[0].path.scaled(side)
                 branch = self._beyond(there[ways[0].moving[0]], joint)
-                yield Choice(branch, joint, path, site.origin)
-                yield Choice(group - branch, joint, inverse(path), site.origin)
+                yield Choice(branch, joint, path, site.pose)
+                yield Choice(group - branch, joint, inverse(path), site.pose)
 
     def _free(self, group: frozenset[int]) -> Choice:
         """What no other holds: straight up."""
@@ -86,4 +86,4 @@ class Trees:
         joint = (self._joints_of[part] or self._standing.sites_of[part])[0]
         site = self._standing.sites[joint]
         still = Path.through(np.zeros((1, 6)), np.zeros(3))
-        return Choice(group, joint, still, site.origin)
+        return Choice(group, joint, still, site.pose)

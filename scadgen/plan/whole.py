@@ -31,6 +31,7 @@ from scadgen.plan.slides import sliding
 from scadgen.plan.standing import Site, Standing
 from scadgen.plan.touching import Touching
 from scadgen.solid.affine import Floats
+from scadgen.solid.pose import Vector
 
 __all__ = ["Loose", "Whole", "opens", "parting_joints", "whole_frame"]
 
@@ -49,15 +50,15 @@ class Loose:
     parts
         Their numbers.
     way
-        The direction, a unit vector in the plane.
+        The direction, a unit vector.
     """
 
     parts: tuple[int, ...]
-    way: tuple[float, float]
+    way: Vector
 
     @property
     def degrees(self) -> float:
-        """The direction as an angle."""
+        """The direction as it is seen from above, as an angle."""
         return math.degrees(math.atan2(self.way[1], self.way[0]))
 
 
@@ -128,7 +129,7 @@ def whole_frame(standing: Standing) -> Whole:
         moving = found.parts
     elif check_certificate(every, held, len(boxes), found) < BALANCED:
         return Whole(len(boxes), len(every), loose, len(found.rows), "rows")
-    return Whole(len(boxes), len(every), (*loose, Loose(moving, (0.0, 0.0))), 0, "more")
+    return Whole(len(boxes), len(every), (*loose, Loose(moving, (0.0, 0.0, 0.0))), 0, "more")
 
 
 def parting_joints(standing: Standing) -> tuple[Site, ...]:
@@ -170,7 +171,7 @@ def opens(contacts: Contacts, motion: Loose) -> bool:
     """
     inside = np.isin(contacts.first, motion.parts), np.isin(contacts.second, motion.parts)
     speed = inside[1].astype(float) - inside[0]
-    along = contacts.normals @ np.array([*motion.way, 0.0])
+    along = contacts.normals @ np.array(motion.way)
     return bool((speed * along > -SLIDES).all())
 
 
@@ -203,9 +204,8 @@ def _pegs(standing: Standing) -> Iterator[_Peg]:
     unit, side = standing.kit.values["edge_length"], standing.kit.values["side"]
     for site in standing.sites:
         for half, peg in zip(site.pieces("half_a"), site.pieces("peg"), strict=True):
-            turn = site.direction(peg)
-            axis = np.array([math.cos(turn), math.sin(turn), 0.0])
-            at = unit * np.array([*site.at, 0.0]) + side * site.kind.figures["pad_sides"] * axis
+            axis = site.direction(peg)
+            at = unit * np.array(site.pose.at) + side * site.kind.key.pad * axis
             part = site.parts[peg]
             alone = part not in standing.elements
             yield _Peg(part, site.parts[half], site.tubes.get(half), at, axis, alone)
@@ -230,7 +230,8 @@ def _motions(standing: Standing, pegs: Sequence[_Peg]) -> Iterator[Loose]:
     inward = -1.0 if standing.kit.key == "loose" else 1.0
     for peg in pegs:
         if peg.alone:
-            x, y, _ = inward * peg.axis
-            yield Loose((peg.part,), (float(x), float(y)))
+            x, y, z = (inward * peg.axis).tolist()
+            yield Loose((peg.part,), (x, y, z))
     for parts, way in sliding(standing):
-        yield Loose(tuple(sorted(parts)), (float(way[0]), float(way[1])))
+        x, y, z = way.tolist()
+        yield Loose(tuple(sorted(parts)), (x, y, z))

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 
-from scadgen.frame.layout import bill
+from scadgen.frame.placement import bill
 from scadgen.plan.model import Move, Plan, Step
 from scadgen.plan.motion import joints_of, motion_of, towards
 from scadgen.plan.pegs import Pegs, count_pegs
@@ -49,7 +49,7 @@ def plan_text(plan: Plan, whole: Whole) -> str:
     kinds = len(bill(kit.placements, kit.parts))
     good = "each proved" if plan.proved else "NOT ALL PROVED"
     parts = f"{len(kit.placements)} parts of {kinds} kinds, {len(plan.standing.sites)} joints"
-    lines = [f"{kit.frame}: {parts}; {_count(len(plan.steps), 'step')}, {good}"]
+    lines = [f"{kit.name}: {parts}; {_count(len(plan.steps), 'step')}, {good}"]
     lines.append(_pegs(count_pegs(plan.standing)))
     for number, step in enumerate(plan.steps, 1):
         lines.append(f"{number:3d}. {sentence(plan, number)}")
@@ -172,7 +172,7 @@ def _single(plan: Plan, part: int) -> str:
     place = plan.standing.kit.placements[part]
     if not place.other_way_up:
         return place.part
-    return f"{place.part}, {'turned over' if place.flip else 'as printed'},"
+    return f"{place.part}, {'turned over' if place.pose.over else 'as printed'},"
 
 
 def _laid(plan: Plan) -> Iterator[str]:
