@@ -12,6 +12,7 @@ from report import heading, line, progress
 from scipy.spatial import Voronoi
 
 from scadgen.emit.scad import scad
+from scadgen.frame.catalogue import NamedTiling
 from scadgen.joint.joint import site_curves
 from scadgen.joint.weave import Weave
 from scadgen.kit.build import Request, build
@@ -32,7 +33,7 @@ _CELLS = 60
 
 def measure(frame: str) -> None:
     """Report the CPU time of OpenSCAD for each part, one after the other in the same run."""
-    kit = build(Request(frame))
+    kit = build(Request.tiled(NamedTiling(frame)))
     heading(f"Parts of the {frame} kit in OpenSCAD, CPU time: one polyhedron, and with booleans")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -74,7 +75,7 @@ def _with_booleans(kit: Kit) -> dict[str, str]:
     made from its finished polyhedron, and so flattered.
     """
     v = kit.values
-    start = kit.joints[0].figures["tube_start_sides"] * v["side"]
+    start = kit.joints[0].key.tube_start * v["side"]
     end, gap, width = v["edge_length"] - start, v["peg_clearance"], v["peg_width"]
     near, far = "connector();", f"translate([{v['edge_length']}, 0, 0]) rotate(180) connector();"
     tube = _box(start, end, v["side"])

@@ -62,11 +62,12 @@ def _generate(frame: str) -> dict[str, float | str]:
 
     from scadgen.emit.folder import write_kit
     from scadgen.errors import ScadgenError
+    from scadgen.frame.catalogue import NamedTiling
     from scadgen.kit.build import Request, build
 
     load = time.process_time()
     try:
-        kit = build(Request(frame, command=f"scadgen kit {frame}"))
+        kit = build(Request.tiled(NamedTiling(frame), command=f"scadgen kit {frame}"))
     except ScadgenError as error:
         return {"error": str(error)}
     built = time.process_time()

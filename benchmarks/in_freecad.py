@@ -12,6 +12,7 @@ from pathlib import Path
 from report import heading, line, progress
 
 from scadgen.emit.macro import macro
+from scadgen.frame.catalogue import NamedTiling
 from scadgen.kit.build import Request, build
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
@@ -36,7 +37,7 @@ def run() -> None:
 def _report(frame: str) -> None:
     import freecadcmd
 
-    kit = build(Request(frame, rows=_CELLS, columns=_CELLS))
+    kit = build(Request.tiled(NamedTiling(frame), rows=_CELLS, columns=_CELLS))
     heading(f"The {frame} kit at {kit.detail} in FreeCAD, CPU time")
     progress(f"{frame}: FreeCAD")
     with tempfile.TemporaryDirectory() as name:

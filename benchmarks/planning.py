@@ -7,13 +7,12 @@ from __future__ import annotations
 
 import resource
 import time
-from dataclasses import replace
 
 from report import heading, line, progress
 
 from scadgen.check.proof import proved
-from scadgen.frame.layout import hexagonal
-from scadgen.kit.build import Request, build
+from scadgen.frame.catalogue import NamedTiling
+from scadgen.kit.build import Request, build, laid_out
 from scadgen.plan.order import make_plan
 from scadgen.plan.standing import stand
 from scadgen.plan.whole import whole_frame
@@ -31,8 +30,8 @@ def run() -> None:
     """Report frames of hexagons at standard."""
     heading("Frames of hexagons at standard, CPU time")
     progress("proofs of a hexagonal kit")
-    kit = proved(build(Request("hexagonal")))
-    large = replace(kit, rows=_LARGE, columns=_LARGE, placements=hexagonal(_LARGE, _LARGE))
+    kit = proved(build(Request.tiled(NamedTiling("hexagonal"))))
+    large = laid_out(kit, _LARGE, _LARGE)
     progress(f"the finished frame of {_LARGE} x {_LARGE} hexagons")
     start = time.process_time()
     whole = whole_frame(stand(large))
@@ -45,7 +44,7 @@ def run() -> None:
     )
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     line("  peak memory", f"{peak:.0f} MB", f"at most {_MEGABYTES:g} MB", met=peak <= _MEGABYTES)
-    small = replace(kit, rows=_PLANNED, columns=_PLANNED, placements=hexagonal(_PLANNED, _PLANNED))
+    small = laid_out(kit, _PLANNED, _PLANNED)
     progress(f"a plan of {_PLANNED} x {_PLANNED} hexagons")
     start = time.process_time()
     plan = make_plan(small)

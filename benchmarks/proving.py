@@ -15,6 +15,7 @@ from report import heading, line, progress
 from scadgen.check.proof import proofs, proved
 from scadgen.check.run import checks
 from scadgen.emit.folder import write_kit
+from scadgen.frame.catalogue import NamedTiling
 from scadgen.kit.build import Request, build
 from scadgen.kit.model import Kit
 
@@ -28,7 +29,7 @@ def run() -> None:
     """Report both frames."""
     for frame in ("hexagonal", "square"):
         heading(f"Proofs of the {frame} kit at standard, CPU time")
-        kit = build(Request(frame))
+        kit = build(Request.tiled(NamedTiling(frame)))
         progress(f"{frame}: proofs on known ways")
         start = _cpu()
         made = proved(kit)
@@ -47,7 +48,7 @@ def _searched(kit: Kit) -> None:
     (joint,) = kit.joints
     ring_ratio = float(joint.weave["ring_ratio"]) + 1e-4
     unknown = replace(joint, weave={**joint.weave, "ring_ratio": ring_ratio}, ways=())
-    progress(f"{kit.frame}: proofs with a search")
+    progress(f"{kit.name}: proofs with a search")
     start = _cpu()
     good = all(proof.result.good for proof in proofs(kit, unknown))
     line("ways searched for", f"{_cpu() - start:.1f} s", "found" if good else "not found")

@@ -92,7 +92,7 @@ def thinned(points: np.ndarray, edges: np.ndarray) -> np.ndarray:
 def become(frame: Frame) -> tuple[str, str]:
     """What becomes of a frame, and what is to be said of it."""
     try:
-        wish = Request("random", "loose", 0, 0, "draft", graph=frame, resizable=True)
+        wish = Request("random", frame=frame, detail="draft", resizable=True)
         kit = proved_kit(wish)
     except ScadgenError as error:
         return "refused" if not isinstance(error, InvariantError) else "failed", str(error)

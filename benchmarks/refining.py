@@ -17,7 +17,6 @@ from scadgen.element.squares import Key
 from scadgen.errors import GeometryError
 from scadgen.joint.joint import DETAILS, Detail, Joint, make_joint, site_curves
 from scadgen.joint.weave import built_in
-from scadgen.kit.build import VALENCE
 from scadgen.solid.affine import AffineSolid, Floats
 from scadgen.solid.mesh import volume
 
@@ -47,7 +46,7 @@ _NEAREST = 12
 
 def _made(frame: str, detail: Detail) -> Joint:
     """A joint with the frame's built-in weave, on the first lattice that takes it."""
-    count = VALENCE[frame]
+    count = {"hexagonal": 3, "square": 4}[frame]
     edges = [2 * math.pi * n / count for n in range(count)]
     for extra in (0, 2, 4):
         try:

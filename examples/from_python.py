@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 from scadgen.emit.mesh import mesh_bytes, write_atomic
+from scadgen.frame.catalogue import NamedTiling
 from scadgen.kit.build import Request, build
 from scadgen.kit.ranges import check_values
 from scadgen.solid.mesh import solid_faults, volume
@@ -16,7 +17,7 @@ from scadgen.solid.mesh import solid_faults, volume
 
 def main(output: Path) -> None:
     """Write half A of a hexagonal kit with side 8 mm and wider gaps."""
-    kit = build(Request("hexagonal", detail="draft", values={"side": 8.0}))
+    kit = build(Request.tiled(NamedTiling("hexagonal"), detail="draft", values={"side": 8.0}))
 
     # The kit keeps its own values; a part is evaluated at any others within the ranges.
     values = {**kit.values, "clearance": 0.25, "peg_clearance": 0.25}

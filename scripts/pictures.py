@@ -15,9 +15,10 @@ from scadgen.emit.frame_picture import frame_svg
 from scadgen.emit.mesh import write_atomic
 from scadgen.emit.picture import assembly_picture, frame_picture, joint_picture, parts_picture
 from scadgen.errors import ScadgenError
+from scadgen.frame.catalogue import NamedTiling
 from scadgen.frame.sameness import sameness
 from scadgen.frame.snapping import move_vertices
-from scadgen.kit.build import VALENCE, Request, build
+from scadgen.kit.build import Request, build
 from scadgen.plan.order import make_plan
 from scadgen.plan.picture import step_pictures
 from scadgen.readers.read import read
@@ -32,13 +33,16 @@ _SIZE = (900, 675)
 #: How far vertices of the frame drawn by hand may move, in mm.
 _SNAP = 2.0
 
+#: The frames of which kits are drawn.
+_REGULAR = ("hexagonal", "square")
+
 #: How far joints are pulled apart, in sides.
 _APART = 3.5
 
 
 def pictures(frame: str) -> Iterator[tuple[str, bytes]]:
     """Names and bytes of a frame's pictures."""
-    kit = proved(build(Request(frame)))
+    kit = proved(build(Request.tiled(NamedTiling(frame))))
     yield f"{frame}_frame.png", frame_picture(kit, size=_SIZE)
     yield f"{frame}_joint.png", joint_picture(kit, size=_SIZE)
     yield f"{frame}_joint_apart.png", joint_picture(kit, _APART, size=_SIZE)
@@ -59,7 +63,7 @@ def main(folder: Path) -> int:
     """Write all pictures into a folder; the exit status."""
     folder.mkdir(parents=True, exist_ok=True)
     try:
-        for name, data in itertools.chain(frames(), *map(pictures, VALENCE)):
+        for name, data in itertools.chain(frames(), *map(pictures, _REGULAR)):
             write_atomic(folder / name, data)
             print(folder / name)
     except ScadgenError as error:

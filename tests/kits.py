@@ -8,10 +8,11 @@ from shared import once
 from scadgen.check.proof import proved
 from scadgen.element.pieces import Piece, add_surface
 from scadgen.emit.scad import scad
+from scadgen.frame.catalogue import NamedTiling
 from scadgen.frame.graph import make_frame
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.weave import BUILT_IN
-from scadgen.kit.build import VALENCE, Request, build
+from scadgen.kit.build import Request, build
 from scadgen.kit.store import dumps
 from scadgen.solid.affine import PARAMETERS
 from scadgen.solid.shell import Shell
@@ -24,6 +25,9 @@ KINDS = [
     for bore in (0.0, 1.5)
 ]
 
+#: Edges at each vertex of the regular frames.
+VALENCE = {"hexagonal": 3, "square": 4}
+
 #: The built-in weave of each frame.
 WEAVES = {frame: BUILT_IN[f"{count}-fixed"] for frame, count in VALENCE.items()}
 
@@ -34,9 +38,19 @@ def named(kind):
     return f"{frame}-{key}-{'bored' if bore else 'solid'}"
 
 
+def grid(frame, key="fixed", **more):
+    """The request for a kit of regular joints in rows and columns."""
+    return Request.tiled(NamedTiling(frame), key=key, **more)
+
+
+def drawn(name, frame, **more):
+    """The request for a kit of a frame that is as it is."""
+    return Request(name, frame=frame, **{"detail": "draft"} | more)
+
+
 def kit(frame, key="fixed", bore=0.0, detail="draft"):
     """A kit, not proved."""
-    request = Request(frame, key, detail=detail, values={"bore": bore} if bore else {})
+    request = grid(frame, key, detail=detail, values={"bore": bore} if bore else {})
     return once(f"kit-{frame}-{key}-{bore}-{detail}", lambda _: build(request))
 
 
@@ -44,7 +58,7 @@ def tee():
     """The kit of a frame without rows and columns to set, of three edges; not proved."""
     ends = [(0, 0), (-150, 0), (150, 0), (0, 150)]
     graph = make_frame("tee", ends, [(0, 1), (0, 2), (0, 3)])
-    return once("kit-tee", lambda _: build(Request("tee", "loose", 0, 0, "draft", graph=graph)))
+    return once("kit-tee", lambda _: build(drawn("tee", graph)))
 
 
 def proved_kit(frame):
@@ -58,7 +72,7 @@ def written(kind, detail="draft"):
     def write(place):
         made = kit(*kind, detail)
         (place / "kit.json").write_text(dumps(made), encoding="utf-8")
-        (place / f"{made.frame}.scad").write_text(scad(made), encoding="utf-8")
+        (place / f"{made.name}.scad").write_text(scad(made), encoding="utf-8")
         return place
 
     return once(f"written-{named(kind)}-{detail}", write)

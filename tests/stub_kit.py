@@ -10,9 +10,10 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from kits import kit as real_kit
 
-from scadgen.frame.layout import LAYOUTS, joint
-from scadgen.kit.model import Joint, Kit
+from scadgen.kit.build import laid_out
+from scadgen.kit.model import Kit, Part
 from scadgen.solid.affine import PARAMETERS, AffineSolid, Linear, Range
 
 Term = Mapping[str, float]
@@ -133,33 +134,28 @@ def stub_kit(
     if bore:
         parts["tube"] = loft("tube", [({}, {"bore": 0.5}, {}), ({"side": 2.0}, {"side": 0.5}, {})])
     names = ("basic", cross, "connector", "half", "peg", *(["tube"] if bore else []))
-    return Kit(
-        frame=frame,
-        key=key,
-        rows=rows,
-        columns=columns,
+    real = real_kit(frame, key)
+    stub = replace(
+        real,
         detail="stub",
         command=command,
         values=values,
         ranges=ranges(values),
-        parts={name: parts[name] for name in names},
-        joints=(_joint({"hexagonal": 3, "square": 4}[frame], key),),
-        placements=LAYOUTS[frame](rows, columns, key),
+        parts={name: _as(real.parts[name], parts[name]) for name in names},
+        joints=(
+            replace(
+                real.joints[0],
+                weave={"name": "stub", "ring_ratio": 1.5},
+                figures={"play_mm_per_mm": 12.0},
+            ),
+        ),
     )
+    return laid_out(stub, rows, columns)
 
 
-def _joint(valence: int, key: str) -> Joint:
-    return Joint(
-        name="",
-        turns=tuple(360 / valence * n for n in range(valence)),
-        keys=(0,),
-        caps=(),
-        connectors=("connector",) * valence,
-        over=(),
-        weave={"name": "stub", "ring_ratio": 1.5},
-        pieces=joint(valence, key),
-        figures={"play_mm_per_mm": 12.0},
-    )
+def _as(part: Part, solid: AffineSolid) -> Part:
+    """Another solid in a part's place."""
+    return Part.of(solid, part.role, part.ends, part.length)
 
 
 def with_joint(kit: Kit, **changes: Any) -> Kit:

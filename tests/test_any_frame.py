@@ -7,14 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kits import bounds, once
+from kits import bounds, drawn, once
 from scipy.spatial import cKDTree
 
 from scadgen.check.geometry import closed, footprint, gaps, partition, placed, same
 from scadgen.check.locking import joint_locks
 from scadgen.check.proof import proved
 from scadgen.element.pieces import half
-from scadgen.emit.part_words import lopsided, words
+from scadgen.emit.part_words import words
 from scadgen.emit.placing import placing
 from scadgen.emit.readme import readme
 from scadgen.emit.scad import scad
@@ -23,11 +23,11 @@ from scadgen.errors import GeometryError, InputError, KitError
 from scadgen.frame.alike import Ends
 from scadgen.frame.catalogue import named
 from scadgen.frame.graph import make_frame
-from scadgen.frame.placement import Placement
+from scadgen.frame.placement import Place, Placement
 from scadgen.joint.symmetry import Symmetry
 from scadgen.joint.weave import any_joint
 from scadgen.kit.bill import lines
-from scadgen.kit.build import Request, build
+from scadgen.kit.build import build
 from scadgen.kit.named import Named, alike_pieces
 from scadgen.kit.pieces import best_pieces
 from scadgen.kit.store import dumps, loads, summary
@@ -38,6 +38,7 @@ from scadgen.plan.whole import whole_frame
 from scadgen.plan.words import plan_text
 from scadgen.solid.gap import smallest_gap
 from scadgen.solid.mesh import volume
+from scadgen.solid.pose import Pose
 from scadgen.tools.openscad import render
 from scadgen.tools.stl import check_stl
 
@@ -46,8 +47,7 @@ FORK = [[0, 0], [100, 0], [-30, 110], [-60, -90], [190, 60]], [[0, 1], [0, 2], [
 
 
 def request(frame, **changes):
-    wanted = {"graph": frame, "detail": "draft", "resizable": True} | changes
-    return Request("any", "loose", 0, 0, **wanted)
+    return drawn("any", frame, **{"resizable": True} | changes)
 
 
 def ladder():
@@ -105,26 +105,22 @@ def test_the_parts_of_4612_are_those_reasoned_out_by_hand():
     made = dozen()
     assert [len(joint.turns) for joint in made.joints] == [3, 3]
     assert len(made.elements) == 3
-    kinds = {place.at: place.joint for place in made.placements if place.role == "half_a"}
-    assert set(kinds.values()) == {"A", "B"}
+    assert {vertex.joint for vertex in made.vertices} == {"A", "B"}
     for place in made.placements:
-        if place.part in made.elements:
-            times = made.parts[place.part].coefficients["edge_length"][:, 0].max()
-            turn = math.radians(place.turn)
-            end = np.array(place.at) + times * np.array([math.cos(turn), math.sin(turn)])
-            far = min(kinds, key=lambda at: np.hypot(*(end - at)))
-            assert kinds[place.at] != kinds[far]
+        if place.is_element:
+            near, far = (made.vertices[end.vertex].joint for end in place.ends)
+            assert near != far
 
 
 def test_one_of_two_joints_is_turned_over():
     made = butterfly()
-    over = {place.at[0] for place in made.placements if place.role == "half_a" and place.flip}
+    over = {place.vertex for place in made.placements if place.role == "half_a" and place.pose.over}
     assert len(over) == 1
     # Its wings are two elements, and each is at one of the joints turned over.
     bill = summary(made)["bill"]
     assert sorted(bill[name] for name in made.elements) == [1, 2, 2]
     wings = [place for place in made.placements if bill[place.part] == 2 and place.role != "peg"]
-    flips = [place.flip for place in wings if place.part in made.elements]
+    flips = [place.pose.over for place in wings if place.part in made.elements]
     assert sorted(flips) == [False, False, True, True]
 
 
@@ -199,29 +195,6 @@ def test_kinds_of_joints_have_different_names():
         loads(dumps(replace(made, joints=(first, replace(second, name="A")))))
 
 
-def test_a_joint_stands_as_it_fits_best_however_its_pieces_are_listed():
-    # Two keys that are nearly half a turn apart, with the same halves: either could be the first.
-    gaps = np.array([90.0, 89.8, 90.0, 90.2])
-    turns = np.radians(np.cumsum([0.0, *gaps[:-1]]))
-    points = np.vstack([[0, 0], 300 * np.column_stack([np.cos(turns), np.sin(turns)])])
-    made = build(request(make_frame("cross", points, [[0, n] for n in range(1, 5)])))
-    place = next(p for p in made.placements if p.role == "half_a" and p.at == (0.0, 0.0))
-    kind = next(one for one in made.joints if one.name == place.joint)
-    # A joint of which no more than the pieces of two keys is looked at.
-    two = [
-        replace(p, at=(0.0, 0.0), turn=p.turn + turn, joint="")
-        for turn in (0.0, 179.8)
-        for p in kind.pieces
-        if p.role != "cap"
-    ]
-    joint = replace(kind, name="", keys=(0, 2), pieces=tuple(two))
-    for turn in (0.0, 40.0):
-        standing = [replace(p, turn=p.turn + turn) for p in joint.pieces]
-        for placements in (standing, standing[::-1]):
-            (site,) = stand(replace(made, joints=(joint,), placements=tuple(placements))).sites
-            assert site.origin.turn == pytest.approx(turn, abs=1e-6)
-
-
 def test_connectors_between_the_same_walls_are_one_part_in_joints_of_any_kind():
     # All with their key at the first edge.  The edge opposite is between gaps of 90 and 100
     # degrees, the other way around in the third joint and of 90 twice in the last: walls there
@@ -277,7 +250,7 @@ def test_a_plan_tells_what_lies_the_other_way_up():
     text = " ".join(plan_text(plan, whole_frame(plan.standing)).split())
     for place in made.placements:
         if place.other_way_up:
-            how = "turned over" if place.flip else "as printed"
+            how = "turned over" if place.pose.over else "as printed"
             assert f"{place.part}, {how}," in text
     # The way of a half into the joint that is turned over is the other one's, turned over.
     halves = {}
@@ -299,8 +272,8 @@ def test_what_is_turned_over_is_one_clearance_from_its_neighbours(name):
     assert any(place.other_way_up for place in made.placements)
     clearance, unit, side = (made.values[n] for n in ("clearance", "edge_length", "side"))
     meshes = [placed(made, place, made.values) for place in made.placements]
-    reach = side * max(joint.figures["tube_start_sides"] for joint in made.joints)
-    for at in {place.at for place in made.placements if place.role == "half_a"}:
+    reach = side * max(joint.key.tube_start for joint in made.joints)
+    for at in {vertex.pose.at for vertex in made.vertices}:
         around = [
             (points, triangles)
             for place, (points, triangles) in zip(made.placements, meshes, strict=True)
@@ -388,7 +361,7 @@ def test_a_picture_says_where_each_piece_goes():
     several = len(made.joints) > 1  # a lone kind of joint has no letter
     expected = []
     for place in made.placements:
-        other = "*" if place.role != "peg" and place.flip != (place.role == "half_b") else ""
+        other = "*" if place.role != "peg" and place.pose.over != (place.role == "half_b") else ""
         if place.part.startswith("edge_"):
             expected.append(place.part + other)
         elif place.role == "cap":
@@ -409,7 +382,7 @@ def test_elements_are_marked_where_their_ends_differ(made):
         about = [length, 0.0, 0.0] - points * [1.0, 1.0, -1.0]
         if cKDTree(points).query(about)[0].max() > 1e-6:
             uneven.add(name)
-    assert lopsided(made) == uneven
+    assert {name for name, part in made.parts.items() if part.fits_one_way} == uneven
     circles = [
         np.array(re.findall(rf'cx="(.*?)" cy="(.*?)" r="{radius}"', placing(made)), dtype=float)
         for radius in ("14.0", "3.0")
@@ -419,9 +392,8 @@ def test_elements_are_marked_where_their_ends_differ(made):
     expected = []
     for place in made.placements:
         if place.part in uneven:
-            turn = math.radians(place.turn)
-            off = 120 * np.subtract(place.at, first.at)
-            off += 1.4 * 14 * np.array([math.cos(turn), math.sin(turn)])
+            off = 120 * np.subtract(place.pose.at, first.pose.at)[:2]
+            off += 1.4 * 14 * np.array(place.pose.x[:2])
             expected.append(joints[0] + off * (1, -1))
     assert len(dots) == len(expected) > 0
     assert np.abs(dots - expected).max() < 0.2
@@ -440,9 +412,9 @@ def test_the_bill_says_what_is_at_the_ends_of_elements(made):
             if piece.role == "cap":
                 points = made.parts[piece.part].points(made.values)
                 even = cKDTree(points).query(points * [1, -1, -1])[0].max() < 1e-6
-                over = not even and piece.flip != (site.origin.over != place.flip)
+                over = not even and piece.pose.over != (site.pose.over != place.pose.over)
                 end = piece.part.replace("_", " ") + (" turned over" if over else "")
-            far = not np.allclose(place.at, site.origin.at, rtol=0, atol=1e-6)
+            far = not np.allclose(place.pose.at, site.pose.at, rtol=0, atol=1e-6)
             ends.setdefault(place.part, [set(), set()])[far].add(end)
     assert ends.keys() == set(made.elements)
     for name, found in ends.items():
@@ -481,8 +453,8 @@ def test_what_cannot_be_built_is_refused_with_its_place():
         build(request(near))
     with pytest.raises(InputError, match="side = 3 mm: must be 5 to 100 mm"):
         build(request(make_frame("fork", *FORK), values={"side": 3.0}))
-    with pytest.raises(InputError, match="key = 'fixed': must be loose, so that each joint"):
-        Request("any", "fixed", 0, 0, graph=near)
+    with pytest.raises(InputError, match=r"key = 'fixed': .* loose pegs fit every frame"):
+        build(drawn("any", near, key="fixed"))
 
 
 @pytest.mark.parametrize("values", [{}, {"peg_length": 15.0}, {"clearance": 0.4}], ids=str)
@@ -510,7 +482,7 @@ def test_what_all_but_meets_is_told_how_to_be_joined():
     frame = make_frame("open", points, [[0, 1], [2, 3], [1, 3]])
     message = r"edge 0 is 0\.2 mm away \(a larger --tolerance joins ends that are repaired\), "
     with pytest.raises(GeometryError, match=message):
-        build(Request("open", "loose", 0, 0, "draft", values={"side": 5.0}, graph=frame))
+        build(drawn("open", frame, values={"side": 5.0}))
 
 
 def test_pegs_of_wider_rings_are_of_one_shape_and_told_so():
@@ -518,7 +490,7 @@ def test_pegs_of_wider_rings_are_of_one_shape_and_told_so():
     ends = [[0, 0], [300, 0], [150, 260], [300, 300]]
     frame = make_frame("two", ends, [[0, 1], [0, 2], [1, 3]])
     made = build(request(frame, resizable=False, rim="open"))
-    pegs = [solid for name, solid in made.parts.items() if name.startswith("peg_")]
+    pegs = [part for part in made.parts.values() if part.role == "peg"]
     first, *others = (peg.points(made.values) for peg in pegs)
     for other in others:
         assert other - other.min(axis=0) == pytest.approx(first - first.min(axis=0), abs=1e-9)
@@ -533,7 +505,7 @@ def test_pegs_of_wider_rings_are_of_one_shape_and_told_so():
 def test_edges_of_nearly_one_length_are_as_long_when_the_kit_is_made_again():
     # As people write an equilateral triangle: its sides differ by 0.002 mm, and are one part.
     frame = make_frame("drawn", [[0, 0], [100, 0], [50, 86.6]], [[0, 1], [1, 2], [2, 0]])
-    kit = build(Request("drawn", "loose", 0, 0, "draft", None, {"side": 6.0}, graph=frame))
+    kit = build(drawn("drawn", frame, values={"side": 6.0}))
     assert kit.values["edge_length"] == pytest.approx(
         (frame.lengths.min() + frame.lengths.max()) / 2, abs=1e-6
     )
@@ -548,7 +520,8 @@ def test_a_readme_says_which_half_a_part_is_where_it_is_both():
     one, other = sorted(p.part for p in first.pieces if p.role in ("half_a", "half_b"))
     for turn, parts in ((0.0, (one, other)), (90.0, (other, one))):
         for role, part in zip(("half_a", "half_b"), parts, strict=True):
-            pieces.append(Placement(part, (0.0, 0.0), turn, role == "half_b", role, first.name))
+            pose = Pose.flat((0, 0), turn, over=role == "half_b")
+            pieces.append(Placement(part, role, pose, (Place(0, 0),)))
     text = readme(replace(made, joints=(replace(first, pieces=tuple(pieces)), *made.joints[1:])))
     assert f"2 x `{one}` (half A at 0°, half B at 90°)" in text
     assert f"2 x `{other}` (half A at 90°, half B at 0°)" in text

@@ -433,7 +433,7 @@ def count(number):
 @pytest.fixture(scope="module", params=["hexagonal", "tee"])
 def drawn(request, tmp_path_factory):
     made = tee() if request.param == "tee" else kit("hexagonal")
-    path = tmp_path_factory.mktemp("numbers") / f"{made.frame}.scad"
+    path = tmp_path_factory.mktemp("numbers") / f"{made.name}.scad"
     path.write_text(scad(made), encoding="ascii")
     return made, path
 

@@ -132,7 +132,7 @@ def test_kit_says_what_to_print_and_what_comes_next(run, tmp_path):
     assert f"{target}: 61 pieces to print for 2 x 2 cells" in out
     assert re.search(r"^ +13 basic$", out, re.MULTILINE)
     assert f"next: scadgen render '{target}'" in out
-    assert load(target).frame == "hexagonal"
+    assert load(target).name == "hexagonal"
 
 
 def test_kit_takes_every_option_and_its_command_makes_it_again(run, tmp_path, monkeypatch):
@@ -191,7 +191,7 @@ def test_a_grid_that_is_made_as_other_frames_are_is_told(run, tmp_path):
 def test_kit_goes_into_a_folder_of_the_frames_name(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert run("kit", "hexagonal", *DRAFT, "--unchecked")[0] == 0
-    assert load(tmp_path / "hexagonal").frame == "hexagonal"
+    assert load(tmp_path / "hexagonal").name == "hexagonal"
 
 
 @pytest.mark.parametrize("name", [name for name in sorted(BUILT_IN) if name[0] in "34"])
@@ -664,7 +664,7 @@ def test_names_that_a_terminal_cannot_show_break_nothing(encoding, tmp_path):
     words = ("kit", "hexagonal", *DRAFT, "--weave", f"{name}.json", "-o", name)
     said = shell(*words, cwd=tmp_path, PYTHONIOENCODING=encoding)
     assert said.returncode == 0, said.stderr.decode()
-    assert load(tmp_path / name).frame == "hexagonal"
+    assert load(tmp_path / name).name == "hexagonal"
 
 
 def test_messages_about_nasty_names_are_one_line(refused, tmp_path):

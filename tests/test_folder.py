@@ -6,12 +6,12 @@ import sys
 from pathlib import Path
 
 import pytest
-from kits import KINDS, kit, named, proved_kit, tee
+from kits import KINDS, drawn, grid, kit, named, proved_kit, tee
 
 from scadgen.emit.folder import files_of, write_kit
 from scadgen.errors import InputError
 from scadgen.frame.graph import make_frame
-from scadgen.kit.build import Request, build
+from scadgen.kit.build import build
 from scadgen.kit.store import dumps, load
 
 FILES = {
@@ -57,7 +57,7 @@ def test_an_interrupt_while_a_folder_is_replaced_loses_nothing(tmp_path, monkeyp
 def test_a_frame_whose_files_would_be_named_as_the_kit_is_refused():
     frame = make_frame("Kit", [[0, 0], [99, 0], [0, 99]], [[0, 1], [0, 2], [1, 2]])
     with pytest.raises(InputError, match=r"frame = 'Kit': .*another name"):
-        Request("Kit", "loose", 0, 0, "draft", graph=frame)
+        drawn("Kit", frame)
 
 
 class Interrupted(Exception):  # noqa: N818  what a user does is no error
@@ -76,7 +76,7 @@ def interrupt_at(file):
 def test_a_kit_is_all_of_its_files(kind, tmp_path):
     made = kit(*kind)
     write_kit(made, tmp_path / "kit")
-    names = {name.replace("hexagonal", made.frame) for name in FILES}
+    names = {name.replace("hexagonal", made.name) for name in FILES}
     assert set(contents(tmp_path / "kit")) == names == set(files_of(made))
     assert all(path.stat().st_size for path in (tmp_path / "kit").iterdir())
     assert dumps(load(tmp_path / "kit")) == dumps(made)
@@ -92,7 +92,7 @@ def test_the_manual_names_every_file_of_a_kit():
 
 def test_the_same_request_gives_the_same_bytes(tmp_path):
     for name in ("one", "other"):
-        write_kit(build(Request("hexagonal", detail="draft")), tmp_path / name)
+        write_kit(build(grid("hexagonal", detail="draft")), tmp_path / name)
     assert contents(tmp_path / "one") == contents(tmp_path / "other")
 
 
@@ -266,9 +266,9 @@ def test_an_unchecked_kit_says_so_in_every_text(make):
     made = make()
     written = texts(made)
     # JSON and CSV have none, and OpenSCAD's Customizer would take an entry for a set of values.
-    del written[f"{made.frame}.json"], written["parts.csv"]
+    del written[f"{made.name}.json"], written["parts.csv"]
     assert '"proved": false' in written.pop("kit.json")
-    assert len(written) == (5 if made.graph is None else 6)
+    assert len(written) == (5 if made.cells is not None else 6)
     for name, text in written.items():
         assert "unchecked: nothing was proved" in text.lower().replace("*", ""), name
 

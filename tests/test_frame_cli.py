@@ -9,6 +9,7 @@ import kits
 import numpy as np
 import pytest
 from defusedxml import ElementTree
+from kits import drawn
 
 from scadgen.cli.frame_report import SIDES
 from scadgen.cli.main import cli, main
@@ -17,7 +18,7 @@ from scadgen.frame.catalogue import ALIASES, NAMES, OPTIONS, named
 from scadgen.frame.graph import make_frame
 from scadgen.frame.sameness import sameness
 from scadgen.joint.weave import BUILT_IN
-from scadgen.kit.build import Request, build
+from scadgen.kit.build import build
 from scadgen.kit.store import load
 from scadgen.readers.read import read
 
@@ -187,7 +188,7 @@ def test_rings_are_those_of_the_kit_and_so_are_the_sides_that_fit(said, tmp_path
     assert {joint["ring_ratio"] for joint in said(path)["kinds_of_joints"]} == kit_rings
     graph = read(path).frame
     within = math.floor(1000 * largest) / 1000
-    made = build(Request("tee", "loose", 0, 0, "draft", values={"side": within}, graph=graph))
+    made = build(drawn("tee", graph, values={"side": within}))
     low, _ = kits.bounds(made, "edge_length", made.values)
     # All that is left is what a peg is rounded down by.
     assert 90 - 0.11 < low <= 90

@@ -7,24 +7,25 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from kits import KINDS, WEAVES, bounds, inside, kit, named
+from kits import KINDS, WEAVES, bounds, grid, inside, kit, named
 
 from scadgen.check.geometry import placed
 from scadgen.errors import GeometryError, InputError
-from scadgen.frame.placement import Placement
+from scadgen.frame.placement import Place, Placement
 from scadgen.joint.weave import Weave
-from scadgen.kit.build import Request, build
+from scadgen.kit.build import build
 from scadgen.kit.ranges import check_values
 from scadgen.solid.affine import PARAMETERS
 from scadgen.solid.gap import overlap_volume, smallest_gap
 from scadgen.solid.mesh import solid_faults
+from scadgen.solid.pose import Pose
 
 kinds = pytest.mark.parametrize("kind", KINDS, ids=named)
 CLEARANCES = (0.05, 0.1, 0.2, 0.4)
 
 
 def request(frame="hexagonal", **more):
-    return Request(frame, detail="draft", **more)
+    return grid(frame, detail="draft", **more)
 
 
 def assert_one_line(error, *words):
@@ -36,7 +37,7 @@ def assert_one_line(error, *words):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"frame": "triangular"}, ("frame = 'triangular'", "hexagonal, square")),
+        ({"frame": "gearbox"}, ("frame 'gearbox'", "hexagonal, square")),
         ({"key": "glued"}, ("key = 'glued'", "fixed, loose")),
         ({"detail": "ultra"}, ("detail = 'ultra'", "draft, standard, fine")),
         ({"rows": 0}, ("rows = 0", "1 to 100")),
@@ -46,7 +47,7 @@ def assert_one_line(error, *words):
 )
 def test_names_and_counts_that_do_not_exist_are_refused(changes, words):
     with pytest.raises(InputError) as error:
-        Request(**{"frame": "hexagonal", **changes})
+        build(grid(**{"frame": "hexagonal", **changes}))
     assert_one_line(error, *words)
 
 
@@ -134,7 +135,7 @@ def test_all_that_mates_is_one_clearance_apart(kind, detail):
     pieces = list(made.joints[0].pieces)
     if made.key == "loose":
         # The tube with the peg's other socket; it starts where the halves end.
-        pieces.append(Placement("two_sided", (0.0, 0.0), 0.0, flip=False, role="cross"))
+        pieces.append(Placement("two_sided", "cross", Pose(), (Place(0, 0), Place(1, 0))))
     pairs = list(combinations(range(len(pieces)), 2))
     almost = meshes_at(made, pieces, 0.01)
     mating = [(a, b) for a, b in pairs if smallest_gap(*almost[a], *almost[b], limit=1.0) < 0.02]

@@ -6,7 +6,7 @@ from itertools import product
 import numpy as np
 import puzzles
 import pytest
-from kits import kit
+from kits import grid, kit
 
 from scadgen.check.locking import (
     connectors_lock,
@@ -19,7 +19,7 @@ from scadgen.check.proof import proved
 from scadgen.errors import GeometryError
 from scadgen.interlock.contacts import find_contacts
 from scadgen.joint.weave import Weave
-from scadgen.kit.build import Request, build, build_joint
+from scadgen.kit.build import build, build_joint
 
 #: Arms that hardly weave.
 LOOSE = Weave(1.54, 0.67, 0.23, 0.26, 0.81, name="loose")
@@ -41,7 +41,7 @@ def test_built_in_joints_lock_but_for_the_peg(frame, key):
 
 
 def test_a_joint_that_hardly_weaves_is_not_locked():
-    made = build(Request("square", detail="draft", weave=LOOSE))
+    made = build(grid("square", detail="draft", weave=LOOSE))
     result = of_joint(connectors_lock, made)
     assert not result.good
     assert "can move" in result.figure

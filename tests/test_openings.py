@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from kits import once
+from kits import drawn, once
 
 from scadgen.check.geometry import placed
 from scadgen.check.openings import Openings
 from scadgen.check.ways import come_apart
 from scadgen.frame.graph import make_frame
 from scadgen.interlock.path import replay
-from scadgen.kit.build import Request, build
+from scadgen.kit.build import build
 
 #: No search begins in it, but a way that is known or opened needs none.
 NO_TIME = 1e-9
@@ -25,7 +25,7 @@ def star(*gaps):
     ends = 900 * np.column_stack([np.cos(turns), np.sin(turns)])
     edges = [[0, n + 1] for n in range(len(gaps))]
     frame = make_frame("star", np.vstack([[0, 0], ends]), edges)
-    return build(Request("star", "loose", 0, 0, "draft", graph=frame, rim="open"))
+    return build(drawn("star", frame, rim="open"))
 
 
 def made(*gaps):

@@ -230,7 +230,7 @@ class Project:
     def __init__(self, folder, kit):
         self.folder = folder
         self.kit = kit
-        self.scad = folder / f"{kit.frame}.scad"
+        self.scad = folder / f"{kit.name}.scad"
         folder.mkdir()
         self.scad.write_text(scad(kit), encoding="ascii")
         (folder / "Makefile").write_text(makefile(kit), encoding="ascii")

@@ -12,7 +12,7 @@ from importlib import resources
 import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
-from kits import kit, proved_kit, tee
+from kits import grid, kit, proved_kit, tee
 from manifold3d import Manifold, Mesh64, OpType
 from scipy.spatial.transform import Rotation
 from shared import once
@@ -20,12 +20,11 @@ from shared import once
 from scadgen.check.proof import proved
 from scadgen.cli.main import main
 from scadgen.errors import InputError
-from scadgen.frame.layout import LAYOUTS
 from scadgen.interlock.contacts import find_contacts
 from scadgen.interlock.escape import Attempts
 from scadgen.interlock.path import Path
 from scadgen.joint.weave import BUILT_IN
-from scadgen.kit.build import Request, build
+from scadgen.kit.build import build, laid_out
 from scadgen.kit.store import dumps as kit_text
 from scadgen.plan import order, search
 from scadgen.plan.order import make_plan
@@ -37,6 +36,7 @@ from scadgen.plan.standing import stand
 from scadgen.plan.told import dumps, plan_entry
 from scadgen.plan.touching import Touching
 from scadgen.plan.whole import whole_frame
+from scadgen.solid.pose import Pose
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -49,11 +49,6 @@ TEE = ("tee", "loose", 0, 0)
 also_tee = pytest.mark.parametrize("frame", [*FRAMES, TEE], ids=lambda f: "-".join(map(str, f)))
 
 
-def framed(made, rows, columns):
-    places = LAYOUTS[made.frame](rows, columns, made.key)
-    return replace(made, rows=rows, columns=columns, placements=places)
-
-
 def checked(frame):
     """A proved kit of a frame."""
     name, key, rows, columns = frame
@@ -64,7 +59,7 @@ def checked(frame):
         if key == "fixed"
         else once(f"proved-{name}-{key}", lambda _: proved(kit(name, key)))
     )
-    return framed(made, rows, columns)
+    return laid_out(made, rows, columns)
 
 
 def planned(frame):
@@ -98,9 +93,9 @@ def backwards(entry):
 def corners(made, part):
     """Corners of a part of the frame where it stands."""
     place = made.placements[part]
-    points = made.parts[place.part].points(made.values) * ([1, -1, -1] if place.flip else [1, 1, 1])
-    points = Rotation.from_euler("z", place.turn, degrees=True).apply(points)
-    return points + made.values["edge_length"] * np.array([*place.at, 0.0])
+    axes = np.array([place.pose.x, np.cross(place.pose.z, place.pose.x), place.pose.z])
+    points = made.parts[place.part].points(made.values) @ axes
+    return points + made.values["edge_length"] * np.array(place.pose.at)
 
 
 def solid(made, part):
@@ -172,7 +167,7 @@ def test_hexagons_need_no_loose_peg_and_rows_go_on_as_one():
     # The upper half of a hexagon: three joints, the middle one with a peg at the rim.
     roles = Counter(plan.standing.kit.placements[part].role for part in move.parts)
     assert roles == {"row": 2, "cap": 2, "half_a": 3, "half_b": 3, "peg": 1}
-    assert move.origin.turn == pytest.approx(90)
+    assert move.origin.degrees == pytest.approx(90)
 
 
 def test_a_part_from_the_middle_does_not_come_out_before_its_turn():
@@ -195,7 +190,7 @@ def test_rows_do_not_slide_the_other_way():
     (move,) = plan.steps[-1].moves
     path, everything = plan.ways[move.way], range(len(plan.standing.kit.placements))
     found = Prover(plan.standing).proved(
-        path, move.parts, everything, replace(move.origin, turn=move.origin.turn + 180)
+        path, move.parts, everything, move.origin @ Pose.flat((0, 0), 180.0)
     )
     assert found.blocking is not None
 
@@ -226,7 +221,7 @@ def test_the_finished_frame_holds_unless_pegs_slide(frame):
     alone = {one.parts[0] for one in whole.loose if len(one.parts) == 1}
     assert alone == {n for n, p in enumerate(standing.kit.placements) if p.role == "peg"}
     rows = [one for one in whole.loose if len(one.parts) > 1]
-    assert {tuple(np.round(one.way, 6) + 0.0) for one in rows} == {(0, 1), (0, -1)}
+    assert {tuple(np.round(one.way, 6) + 0.0) for one in rows} == {(0, 1, 0), (0, -1, 0)}
 
 
 @also_tee
@@ -236,7 +231,7 @@ def test_what_can_move_is_in_the_way_of_no_contact_at_all(frame):
     for one in whole_frame(stand(made)).loose:
         inside = [np.isin(part, one.parts) for part in (contacts.first, contacts.second)]
         across = inside[0] != inside[1]
-        away = np.where(inside[1], 1.0, -1.0) * (contacts.normals @ [*one.way, 0.0])
+        away = np.where(inside[1], 1.0, -1.0) * (contacts.normals @ np.array(one.way))
         assert across.any()
         assert away[across].min() > -1e-6
 
@@ -253,13 +248,12 @@ def test_with_pegs_that_are_too_small_halves_move():
 
 def test_rows_slide_until_a_plane_is_between_however_wide_the_rings_are():
     wide = build(
-        Request("hexagonal", detail="draft", weave=replace(BUILT_IN["3-fixed"], ring_ratio=6))
+        grid("hexagonal", detail="draft", weave=replace(BUILT_IN["3-fixed"], ring_ratio=6))
     )
-    made = framed(wide, 2, 1)
+    made = laid_out(wide, 2, 1)
     everything = set(range(len(made.placements)))
     for choice in next(Rows(stand(made)).choices()):
-        turn = math.radians(choice.origin.turn)
-        way = np.array([math.cos(turn), math.sin(turn), 0.0])
+        way = np.array(choice.origin.x)
         near = [corners(made, n) @ way for n in everything - choice.parts]
         gone = [corners(made, n) @ way + choice.path.poses[-1][0, 3] for n in choice.parts]
         assert min(map(min, gone)) > max(map(max, near))
@@ -410,7 +404,7 @@ def folder(tmp_path):
     """A folder with a small kit."""
     place = tmp_path / "kit"
     place.mkdir()
-    small = framed(proved_kit("hexagonal"), 1, 1)
+    small = laid_out(proved_kit("hexagonal"), 1, 1)
     (place / "kit.json").write_text(kit_text(small), encoding="utf-8")
     return place
 

@@ -3,11 +3,11 @@
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kits import kit
+from kits import grid, kit
 
 from scadgen.errors import InvariantError, ScadgenError
 from scadgen.joint.weave import Weave
-from scadgen.kit.build import Request, build
+from scadgen.kit.build import build
 from scadgen.kit.ranges import check_values
 from scadgen.kit.store import dumps, loads
 from scadgen.solid.affine import PARAMETERS
@@ -56,7 +56,7 @@ def refusal(error):
 def test_any_weave_makes_a_sound_kit_or_is_refused(numbers, frame, key, values):
     try:
         weave = Weave(*numbers)
-        made = build(Request(frame, key, detail="draft", weave=weave, values=values))
+        made = build(grid(frame, key, detail="draft", weave=weave, values=values))
     except ScadgenError as error:
         assert refusal(error)  # noqa: PT017  both ends are good
     else:
@@ -67,7 +67,7 @@ def test_any_weave_makes_a_sound_kit_or_is_refused(numbers, frame, key, values):
 @given(lengths, st.sampled_from(["hexagonal", "square"]), st.sampled_from(["fixed", "loose"]))
 def test_any_lengths_make_a_sound_kit_or_are_refused(values, frame, key):
     try:
-        made = build(Request(frame, key, detail="draft", values=values))
+        made = build(grid(frame, key, detail="draft", values=values))
     except ScadgenError as error:
         assert refusal(error)  # noqa: PT017  both ends are good
     else:

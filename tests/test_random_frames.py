@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from kits import drawn
 
 from scadgen.errors import GeometryError, InputError
 from scadgen.frame.graph import make_frame
 from scadgen.joint.weave import any_joint
-from scadgen.kit.build import Request, build
+from scadgen.kit.build import build
 
 ROOT = Path(__file__).parents[1]
 
@@ -54,7 +55,7 @@ def past_a_corner(far):
 
 
 def test_a_joint_in_the_way_of_an_edge_is_refused_with_what_would_do():
-    wish = Request("past", "loose", 0, 0, "draft", graph=past_a_corner(35.0))
+    wish = drawn("past", past_a_corner(35.0))
     with pytest.raises(GeometryError, match=r"vertex 2 at .*: edge 0 is 35 mm away") as found:
         build(wish)
     (times,) = re.findall(r"a frame ([\d.]+) times as large would do", str(found.value))
@@ -65,13 +66,13 @@ def test_a_joint_in_the_way_of_an_edge_is_refused_with_what_would_do():
 
 
 def test_a_frame_that_may_grow_grows_until_its_joints_keep_apart():
-    kit = build(Request("past", "loose", 0, 0, "draft", graph=past_a_corner(20.0), resizable=True))
-    place = kit.graph.vertices[2]
-    assert place[1] - kit.graph.vertices[0, 1] > 10 * 3.5
+    kit = build(drawn("past", past_a_corner(20.0), resizable=True))
+    place = kit.frame.vertices[2]
+    assert place[1] - kit.frame.vertices[0, 1] > 10 * 3.5
 
 
 def test_edges_too_near_each_other_are_refused_with_their_vertex():
     ends = [[0, 0], [300, 0], [300 * np.cos(0.4), 300 * np.sin(0.4)]]
     frame = make_frame("narrow", ends, [[0, 1], [0, 2]])
     with pytest.raises(InputError, match=r"vertex 0 at .*22\.92 degrees apart"):
-        build(Request("narrow", "loose", 0, 0, "draft", graph=frame, resizable=True))
+        build(drawn("narrow", frame, resizable=True))

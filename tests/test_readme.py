@@ -11,7 +11,7 @@ from stub_kit import COMMAND, stub_kit, with_joint
 from scadgen.emit.readme import readme
 from scadgen.emit.scad_parameters import limits
 from scadgen.errors import InputError
-from scadgen.frame.layout import LAYOUTS, bill
+from scadgen.frame.placement import bill
 from scadgen.interlock.path import Path
 from scadgen.kit.model import Way
 from scadgen.kit.ranges import check_values
@@ -40,7 +40,7 @@ def test_what_to_print_is_the_bill_of_the_frame(frame, key):
     kit = stub_kit(frame, key=key, rows=2, columns=3)
     *rows, total = table(readme(kit), "What to print")
     counts = {row[1].strip("`"): int(row[3]) for row in rows}
-    assert counts == bill(LAYOUTS[frame](2, 3, key))
+    assert counts == bill(kit.placements, kit.parts)
     assert int(total[3]) == sum(counts.values())
 
 

@@ -9,12 +9,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kits import kit
+from kits import grid, kit
 
 from scadgen.check import proof
 from scadgen.errors import InvariantError
 from scadgen.kit import wanted
-from scadgen.kit.build import Request, build
+from scadgen.kit.build import build
 from scadgen.kit.store import dumps
 from scadgen.work.cache import Cache
 from scadgen.work.each import Means
@@ -77,13 +77,13 @@ def test_what_was_done_before_an_interrupt_is_kept_and_gone_on_with(tmp_path):
 
 
 def test_joints_that_are_kept_are_not_computed_again(tmp_path, monkeypatch):
-    request, means = Request("hexagonal", detail="draft"), Means(cache=Cache(tmp_path))
+    request, means = grid("hexagonal", detail="draft"), Means(cache=Cache(tmp_path))
     first = dumps(build(request, means))
     assert first == dumps(kit("hexagonal"))
     monkeypatch.setattr(wanted, "best_pieces", _refuse)
     assert dumps(build(request, means)) == first
     with pytest.raises(InvariantError):
-        build(Request("hexagonal", "loose", detail="draft"), means)
+        build(grid("hexagonal", "loose", detail="draft"), means)
 
 
 def test_a_proof_that_is_kept_is_not_made_again(tmp_path, monkeypatch):

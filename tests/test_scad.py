@@ -21,7 +21,7 @@ from scadgen.emit.scad import parameter_sets, scad
 from scadgen.emit.scad_parameters import limits
 from scadgen.emit.scad_text import comment, number, quoted, table
 from scadgen.errors import InvariantError, ToolError
-from scadgen.frame.layout import LAYOUTS, bill
+from scadgen.kit.build import laid_out
 from scadgen.solid.affine import Linear, Range
 from scadgen.solid.mesh import volume
 from scadgen.tools.openscad import PICTURE, render
@@ -41,7 +41,7 @@ def kit(request):
 
 @pytest.fixture(scope="module")
 def file(kit, tmp_path_factory):
-    path = tmp_path_factory.mktemp("kit") / f"{kit.frame}.scad"
+    path = tmp_path_factory.mktemp("kit") / f"{kit.name}.scad"
     path.write_text(scad(kit), encoding="ascii")
     return path
 
@@ -118,8 +118,7 @@ def test_assemblies_are_one_watertight_solid_of_many_shells(part, kit, file, tmp
     if part == "coupon":
         return
     joint = part.startswith("joint")
-    layout = LAYOUTS[kit.frame](kit.rows, kit.columns, kit.key)
-    expected = placed_volume(kit, kit.joints[0].pieces if joint else layout)
+    expected = placed_volume(kit, kit.joints[0].pieces if joint else kit.placements)
     assert measured == pytest.approx(expected, rel=1e-6)
     (said,) = [e for e in drawn.echoes if e.startswith('"volume')]
     assert float(said.split()[2]) == pytest.approx(expected, rel=1e-5)
@@ -129,28 +128,13 @@ def test_the_frame_stands_where_the_layout_says(kit, file, tmp_path):
     draw(file, tmp_path / "frame.stl", part="frame", rows=1, columns=2)
     points, _ = read_stl(tmp_path / "frame.stl")
     everything = []
-    for p in LAYOUTS[kit.frame](1, 2, kit.key):
-        local = kit.parts[p.part].points(kit.values) * ([1, -1, -1] if p.flip else [1, 1, 1])
-        c, s = math.cos(math.radians(p.turn)), math.sin(math.radians(p.turn))
-        turned = local @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
-        everything.append(turned + [kit.values["edge_length"] * x for x in (*p.at, 0)])
+    for p in laid_out(kit, 1, 2).placements:
+        axes = np.array([p.pose.x, np.cross(p.pose.z, p.pose.x), p.pose.z])
+        turned = kit.parts[p.part].points(kit.values) @ axes
+        everything.append(turned + kit.values["edge_length"] * np.array(p.pose.at))
     expected = np.concatenate(everything)
     assert cKDTree(expected).query(points)[0].max() < 1e-4
     assert cKDTree(points).query(expected)[0].max() < 1e-4
-
-
-@pytest.mark.parametrize("key", ["fixed", "loose"])
-@pytest.mark.parametrize("frame", sorted(LAYOUTS))
-def test_layout_in_openscad_is_the_layout_in_python(frame, key, tmp_path):
-    (tmp_path / "kit.scad").write_text(scad(stub_kit(frame, key=key)), encoding="ascii")
-    sizes = [(1, 1), (1, 4), (2, 3), (3, 1), (4, 2)]
-    calls = ", ".join(f"frame_layout({r}, {c})" for r, c in sizes)
-    found = echo(tmp_path, tmp_path, f"use <kit.scad>\necho([{calls}]);")
-    for (rows, columns), layout in zip(sizes, found, strict=True):
-        expected = LAYOUTS[frame](rows, columns, key)
-        assert [(p[0], p[4], p[5]) for p in layout] == [(p.part, p.flip, p.role) for p in expected]
-        numbers = [(*p.at, p.turn) for p in expected]
-        assert np.allclose([p[1:4] for p in layout], numbers, rtol=1e-5, atol=1e-9)
 
 
 def test_every_range_refuses_what_is_outside(kit, file, tmp_path):
@@ -216,7 +200,7 @@ def test_plates_hold_everything_apart_on_the_bed(kit, file, tmp_path):
         low, high = boxes[:, None, 0, :2], boxes[None, :, 1, :2]
         gap = np.maximum(low - high, np.swapaxes(low - high, 0, 1)).max(axis=2)
         assert gap[~np.eye(len(boxes), dtype=bool)].min(initial=spacing) > spacing - 1e-4
-    assert pieces == sum(bill(LAYOUTS[kit.frame](kit.rows, kit.columns, kit.key)).values())
+    assert pieces == len(kit.placements)
     with pytest.raises(ToolError, match=f"plate_number = {count + 1}: must be a whole number"):
         draw(file, tmp_path / "plate.stl", **settings, plate_number=count + 1)
 
@@ -322,11 +306,10 @@ def test_modules_check_their_arguments(call, message, hexagonal, tmp_path):
 
 
 def test_other_modules_can_be_used(kit, file, tmp_path):
-    layout = LAYOUTS[kit.frame]
     for call, placements in {
         "joint(explode = 1);": kit.joints[0].pieces,
-        "frame(1, 2, 0.5);": layout(1, 2, kit.key),
-        "plate(1, 1, 1);": layout(1, 1, kit.key),
+        "frame(1, 2, 0.5);": laid_out(kit, 1, 2).placements,
+        "plate(1, 1, 1);": laid_out(kit, 1, 1).placements,
     }.items():
         (tmp_path / "u.scad").write_text(f"use <{file}>\n{call}\n", encoding="ascii")
         assert draw(tmp_path / "u.scad", tmp_path / "u.stl").echoes == ()
@@ -523,7 +506,6 @@ def test_numbers_are_short_and_right(value):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"frame": "triangular"}, "every kit's frame has a layout"),
         ({"ranges": ()}, "every live parameter has a range: side has none"),
         ({"values": {"side": 1.0}}, "has the live parameter edge_length"),
         (

@@ -66,7 +66,8 @@ def test_the_text_says_what_it_is_and_has_no_time_in_it():
 
 def test_a_kit_is_found_by_its_folder_or_its_file(tmp_path):
     (tmp_path / "kit.json").write_text(dumps(kit("square")))
-    assert load(tmp_path).frame == load(tmp_path / "kit.json").frame == "square"
+    assert load(tmp_path).name == "square"
+    assert load(tmp_path).frame == load(tmp_path / "kit.json").frame
 
 
 def test_no_kit_is_a_wrong_request(tmp_path):
@@ -95,11 +96,20 @@ def test_a_truncated_kit_is_refused(share, tmp_path):
     assert str(tmp_path) in str(error.value)
 
 
-@pytest.mark.parametrize("version", [0, 1, 2, 3, "4", None, 1.5, [4]])
-def test_another_version_is_refused_by_its_number(version):
-    with pytest.raises(KitError, match=r"kit version .*: this scadgen .* reads version 4") as error:
-        loads(json.dumps(changed("version", to=version)))
+@pytest.mark.parametrize("version", [0, 1, 2, 3, 4, "5", None, 1.5, [5]])
+@pytest.mark.parametrize("command", ["scadgen kit hexagonal --rows 4", "", "a\nb", 3])
+def test_another_version_is_refused_with_what_makes_the_kit_again(version, command):
+    whole = changed("version", to=version) | {"command": command}
+    with pytest.raises(KitError, match=r"kit version .*: this scadgen .* reads version 5") as error:
+        loads(json.dumps(whole))
+    again = (
+        ": scadgen kit hexagonal --rows 4"
+        if command == "scadgen kit hexagonal --rows 4"
+        else (" with scadgen kit")
+    )
+    assert str(error.value).endswith(f"make it again{again}")
     assert repr(version) in str(error.value)
+    assert "\n" not in str(error.value)
 
 
 BASIC = ("parts", "basic")
@@ -109,10 +119,20 @@ NONSENSE = {
     "a number": lambda: 3,
     "nothing": lambda: None,
     "another format": lambda: changed("format", to="gearbox"),
-    "an unknown frame": lambda: changed("frame", to="triangular"),
+    "a frame beside cells": lambda: (
+        document() | {"frame": {"name": "a", "vertices": [], "edges": []}}
+    ),
+    "no cells": lambda: without("cells"),
+    "a cell of an unknown joint": lambda: changed("cells", "vertices", 0, "joint", to="Z"),
+    "a cell without its vertices": lambda: changed("cells", "vertices", to=[]),
+    "a cell at a vertex that is not there": lambda: changed(
+        "cells", "pieces", 0, "ends", 0, to=[7, 0, 0, 0]
+    ),
+    "a cell in a slot that is not there": lambda: changed("cells", "pieces", 0, "ends", 0, 3, to=9),
+    "an edge without its element": lambda: changed("cells", "pieces", 0, "ends", to=[[0, 0, 0, 1]]),
     "no parts": lambda: without("parts"),
     "a part missing": lambda: without("parts", "half"),
-    "an unknown part": lambda: changed("parts", "gear", to=document()["parts"]["peg"]),
+    "a part for nothing": lambda: changed("parts", "peg", "role", to="gear"),
     "an unknown key": lambda: changed("gears", to=3),
     "rows below one": lambda: changed("rows", to=0),
     "rows in words": lambda: changed("rows", to="two"),
@@ -148,7 +168,9 @@ NONSENSE = {
     ),
     "points by an unknown length": lambda: changed(*BASIC, "points", "gear", to=[[0, 0, 0]] * 4),
     "a placement of an unknown part": lambda: changed(*PIECE, "part", to="gear"),
-    "a placement on end": lambda: changed(*PIECE, "at", to=[0, 0, 0]),
+    "a placement without a height": lambda: changed(*PIECE, "at", to=[0, 0]),
+    "a placement with long axes": lambda: changed(*PIECE, "x", to=[2, 0, 0]),
+    "a placement with axes that lean": lambda: changed(*PIECE, "z", to=[0.6, 0, 0.8]),
     "a weave without a name": lambda: without("joints", 0, "weave", "name"),
 }
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kits import joint, regular
+from kits import drawn, joint, regular
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import make_frame
@@ -14,7 +14,7 @@ from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.surface import Surface, half_turn
 from scadgen.joint.symmetry import Symmetry, lopsided
 from scadgen.joint.weave import any_joint
-from scadgen.kit.build import Request, build
+from scadgen.kit.build import build
 
 TURN = 2 * math.pi
 
@@ -96,7 +96,7 @@ def test_what_is_alike_by_angles_and_keys_is_one_part_however_it_is_rounded(star
     """Or an invariant would say so; with edges too near each other it is refused, with words."""
     narrowest, points = star
     frame = make_frame("star", points, [[0, n] for n in range(1, len(points))])
-    wanted = Request("star", "loose", 0, 0, "draft", graph=frame, resizable=True, rim=rim)
+    wanted = drawn("star", frame, resizable=True, rim=rim)
     if narrowest < math.radians(24.9):
         with pytest.raises(InputError, match="degrees"):
             build(wanted)

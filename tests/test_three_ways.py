@@ -10,7 +10,7 @@ import pytest
 from kits import KINDS, bounds, kit, named, random_inside, written
 from scipy.spatial import cKDTree
 
-from scadgen.frame.layout import LAYOUTS
+from scadgen.kit.build import laid_out
 from scadgen.kit.store import load
 from scadgen.solid.mesh import volume
 from scadgen.tools.openscad import render
@@ -44,7 +44,7 @@ def test_every_part_is_the_same_shape_three_ways(kind, detail, seed, tmp_path):
         assert np.array_equal(read.parts[name].points(values), points)
         assert np.array_equal(read.parts[name].triangles, solid.triangles)
         output = tmp_path / f"{name}.stl"
-        drawn = render(place / f"{made.frame}.scad", output, {"part": name, **values}, timeout=120)
+        drawn = render(place / f"{made.name}.scad", output, {"part": name, **values}, timeout=120)
         assert not constructive(drawn.log)
         found, triangles = read_stl(output)
         assert len(triangles) == len(solid.triangles)
@@ -64,7 +64,7 @@ def test_plates_and_assemblies_are_watertight_without_csg(part, kind, tmp_path):
     made = kit(*kind)
     place = written(kind)
     drawn = render(
-        place / f"{made.frame}.scad",
+        place / f"{made.name}.scad",
         tmp_path / "view.stl",
         {"part": part, "rows": 1, "columns": 1, "bed": [400.0, 400.0]},
         timeout=120,
@@ -77,7 +77,7 @@ def test_plates_and_assemblies_are_watertight_without_csg(part, kind, tmp_path):
             sum(volumes[p.part] for p in made.joints[0].pieces), rel=1e-6
         )
     if part == "frame":
-        placed = LAYOUTS[made.frame](1, 1, made.key)
+        placed = laid_out(made, 1, 1).placements
         assert content == pytest.approx(sum(volumes[p.part] for p in placed), rel=1e-6)
 
 
@@ -114,7 +114,7 @@ def test_a_newer_openscad_draws_the_same(kind, tmp_path):
     made = kit(*kind)
     options = ("--backend=Manifold", "--export-format=binstl")
     drawings = [(tmp_path / f"{n}.stl", *options, "-D", f'part="{n}"') for n in made.parts]
-    wasm(written(kind) / f"{made.frame}.scad", *drawings)
+    wasm(written(kind) / f"{made.name}.scad", *drawings)
     for name, solid in made.parts.items():
         expected = volume(solid.points(made.values), solid.triangles)
         assert check_stl(tmp_path / f"{name}.stl") == pytest.approx(expected, rel=1e-6)
@@ -123,7 +123,7 @@ def test_a_newer_openscad_draws_the_same(kind, tmp_path):
 @pytest.mark.parametrize("kind", [KINDS[0], KINDS[-1]], ids=named)
 def test_the_customizer_shows_every_parameter_with_its_range(kind, tmp_path):
     made = kit(*kind)
-    wasm(written(kind) / f"{made.frame}.scad", (tmp_path / "p.json", "--export-format=param"))
+    wasm(written(kind) / f"{made.name}.scad", (tmp_path / "p.json", "--export-format=param"))
     shown = {p["name"]: p for p in json.loads((tmp_path / "p.json").read_text())["parameters"]}
     assert {"part", "rows", "columns", *made.values} <= set(shown)
     for name, value in made.values.items():

@@ -9,7 +9,7 @@ import puzzles
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kits import kit, mesh, regular
+from kits import VALENCE, WEAVES, grid, kit, mesh, regular
 
 from scadgen.check.geometry import placed
 from scadgen.errors import InputError, ToolError
@@ -22,7 +22,7 @@ from scadgen.interlock.program import farthest
 from scadgen.interlock.verdict import Certificate, Motion, verdict
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.weave import Weave
-from scadgen.kit.build import VALENCE, Request, build
+from scadgen.kit.build import build
 from scadgen.solid.gap import overlap_volume
 
 #: Puzzle, held parts, and what moves: nothing, or parts and the directions (rows) in whose
@@ -255,7 +255,7 @@ def test_many_parts_in_a_box(cut):
 
 
 def joint_of(frame, **changes):
-    made = build(Request(frame, **changes))
+    made = build(grid(frame, **changes))
     values = {**made.values, "clearance": 0.0, "peg_clearance": 0.0}
     return [placed(made, p, values) for p in made.joints[0].pieces], [
         p.part for p in made.joints[0].pieces
@@ -296,7 +296,7 @@ def test_a_kits_joint_is_locked_with_its_clearance_too():
 @pytest.mark.parametrize("frame", ["hexagonal", "square"])
 @pytest.mark.parametrize("times", [1, 2])
 def test_whole_connectors_lock_and_still_do_at_twice_the_samples(frame, times):
-    weave, draft = Request(frame).chosen_weave, DETAILS["draft"]
+    weave, draft = WEAVES[frame], DETAILS["draft"]
     detail = replace(draft, samples=times * draft.samples)
     _, found = judged(whole_connectors(weave, VALENCE[frame], detail), (0,), 1e-3)
     assert isinstance(found, Certificate)

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kits import kit, mesh, proved_kit, regular
+from kits import grid, kit, mesh, proved_kit, regular
 from shapes import box, torus
 from stub_kit import stub_kit, with_joint
 
@@ -20,7 +20,7 @@ from scadgen.check.locking import TIP
 from scadgen.check.proof import proved
 from scadgen.check.ways import come_apart
 from scadgen.errors import GeometryError, InputError, KitError
-from scadgen.frame.placement import Placement
+from scadgen.frame.placement import Place, Placement
 from scadgen.interlock.assembly import make_assembly
 from scadgen.interlock.contacts import find_contacts
 from scadgen.interlock.escape import escape
@@ -29,9 +29,10 @@ from scadgen.interlock.play import loosest
 from scadgen.interlock.verdict import Certificate, Motion, verdict
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.weave import BUILT_IN, Weave
-from scadgen.kit.build import Request, build
+from scadgen.kit.build import build
 from scadgen.kit.model import Way
 from scadgen.kit.store import dumps, loads
+from scadgen.solid.pose import Pose
 
 STAGES = {
     "hexagonal": ["the peg", "half A", "half B", "2 connectors"],
@@ -52,7 +53,7 @@ def test_built_in_joints_come_apart_on_known_ways(frame, key, detail):
 @pytest.mark.parametrize("side", [5.0, 25.0])
 def test_known_ways_hold_at_any_size_and_with_a_bore(side):
     values = {"side": side, "clearance": 0.03 * side, "bore": 0.15 * side}
-    made = build(Request("hexagonal", "loose", detail="draft", values=values))
+    made = build(grid("hexagonal", "loose", detail="draft", values=values))
     assert all(
         result.good
         for result, _ in come_apart(
@@ -89,7 +90,7 @@ def test_a_way_through_a_wall_is_not_believed_and_another_is_found():
 
 
 def test_a_joint_without_clearance_is_not_proved_to_come_apart():
-    made = build(Request("hexagonal", detail="draft", values={"clearance": 0, "peg_clearance": 0}))
+    made = build(grid("hexagonal", detail="draft", values={"clearance": 0, "peg_clearance": 0}))
     with pytest.raises(
         GeometryError, match=r"comes out: none found in \d+ tries, must be.*more clearance"
     ):
@@ -108,7 +109,9 @@ def _linked_rings(monkeypatch):
 
 
 def of_four_connectors(known=(), **options):
-    four = tuple(Placement("connector", (0, 0), 90.0 * n, flip=False, role="cap") for n in range(4))
+    four = tuple(
+        Placement("connector", "cap", Pose.flat((0, 0), 90.0 * n), (Place(0, n),)) for n in range(4)
+    )
     made = with_joint(stub_kit("square"), pieces=four)
     return list(come_apart(made, made.joints[0], known, **options))
 

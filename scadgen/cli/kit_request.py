@@ -20,9 +20,6 @@ __all__ = ["kit_request"]
 #: Options of named frames that say how large one is, and how large what it fills is, in mm.
 _SIZES, _AREAS = {"width", "height", "bay_length"}, {"radius", "outline"}
 
-#: Rows and columns that are not said: of regular joints, and of others.
-_FEW, _MORE = 2, 3
-
 #: A weave's file has at most this many bytes: its six numbers have some hundred.
 _LONGEST_WEAVE = 100_000
 
@@ -48,7 +45,7 @@ def kit_request(
     InputError
         There is no such frame or weave, or an option does not go with it.
     """
-    from scadgen.frame.catalogue import ALIASES, NAMES
+    from scadgen.frame.catalogue import ALIASES, NAMES, NamedTiling
     from scadgen.kit.build import Request
 
     own = {"rows", "columns", "key", "rim", "detail", "weave", *lengths}
@@ -56,43 +53,22 @@ def kit_request(
     of_frame = {
         n: v for n, v in options.items() if n not in own and v is not None and v is not False
     }
-    name = ALIASES.get(frame, frame)
-    family = NAMES.get(name)
-    wanted = Request(
-        _plain_name(frame if family else Path(frame).stem),
-        key=options["key"] or "loose",
-        detail=options["detail"],
-        weave=_weave(options["weave"]) if options["weave"] is not None else None,
-        regular=family is not None and family.regular and not of_frame and options["rim"] == "caps",
-        values={n: v for n, v in options.items() if n in lengths and v is not None},
-        command=command,
-        rim=options["rim"],
-        resizable=family is not None and not of_frame.keys() & (_SIZES | _AREAS),
-    )
-    cells = {n: options[n] for n in ("rows", "columns") if options[n] is not None}
-    if has_cells(frame, of_frame) and wanted.rim == "caps":
-        return _of_cells(wanted, name, cells, of_frame, options["key"]), ()
-    return _of_frame(wanted, frame, of_frame | cells)
-
-
-def _of_cells(
-    wanted: Request,
-    name: str,
-    cells: Mapping[str, int],
-    options: Mapping[str, Any],
-    key: str | None,
-) -> Request:
-    """The kit of rows and columns of a tiling."""
-    from scadgen.frame.catalogue import NamedTiling
-
-    few = _FEW if wanted.regular else _MORE
-    return replace(
-        wanted,
-        tiling=NamedTiling(name, dict(options)),
-        rows=cells.get("rows", few),
-        columns=cells.get("columns", few),
-        key=key or ("fixed" if wanted.regular else "loose"),
-    )
+    family = NAMES.get(ALIASES.get(frame, frame))
+    wanted: dict[str, Any] = {
+        "name": _plain_name(frame if family else Path(frame).stem),
+        "detail": options["detail"],
+        "weave": _weave(options["weave"]) if options["weave"] is not None else None,
+        "values": {n: v for n, v in options.items() if n in lengths and v is not None},
+        "command": command,
+        "resizable": family is not None and not of_frame.keys() & (_SIZES | _AREAS),
+    }
+    cells = {n: options[n] for n in ("rows", "columns")}
+    if has_cells(frame, of_frame) and options["rim"] == "caps":
+        tiling = NamedTiling(ALIASES.get(frame, frame), of_frame)
+        return Request.tiled(tiling, key=options["key"], **cells, **wanted), ()
+    of_frame |= {n: v for n, v in cells.items() if v is not None}
+    key, rim = options["key"] or "loose", options["rim"]
+    return _of_frame(Request(key=key, rim=rim, **wanted), frame, of_frame)
 
 
 def _of_frame(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from scadgen.errors import InputError
 from scadgen.frame.catalogue import NamedTiling
@@ -26,6 +27,9 @@ CLEARANCE = 0.2
 
 #: How far a loose peg reaches into the tube, in sides.
 _INTO_TUBE = 0.35
+
+#: Rows and columns that are not said: of regular joints, and of others.
+_FEW, _MORE = 2, 3
 
 #: Above every range, in mm, so that no sum of lengths leaves the numbers there are.
 _LONGEST = 1e6
@@ -87,6 +91,38 @@ class Request:
     rim: str = "caps"
     resizable: bool = False
     refused: tuple[Refused, ...] = ()
+
+    @classmethod
+    def tiled(
+        cls,
+        tiling: NamedTiling,
+        *,
+        rows: int | None = None,
+        columns: int | None = None,
+        key: str | None = None,
+        **more: Any,  # noqa: ANN401  the other parameters
+    ) -> Request:
+        """The kit of rows and columns of a named tiling, which may be as large as joints need.
+
+        Parameters
+        ----------
+        tiling
+            The tiling.
+        rows, columns
+            How many of its cells; by default 2 of regular joints, else 3.
+        key
+            One of `KEYS`; by default fixed for regular joints.
+        **more
+            The other parameters of `Request`.
+        """
+        few = _FEW if tiling.regular else _MORE
+        return cls(
+            **{"name": tiling.name, "regular": tiling.regular, "resizable": True, **more},
+            tiling=tiling,
+            rows=few if rows is None else rows,
+            columns=few if columns is None else columns,
+            key=key or ("fixed" if tiling.regular else "loose"),
+        )
 
     def __post_init__(self) -> None:
         """Refuse names that do not exist."""

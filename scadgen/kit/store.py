@@ -172,7 +172,8 @@ def _parsed(text: str) -> dict[str, Any]:
         _refuse(f"format is not {FORMAT}")
     if document.get("version") != VERSION:
         command = document.get("command")
-        again = f": {command}" if isinstance(command, str) and command.isprintable() else ""
+        known = isinstance(command, str) and command and command.isprintable()
+        again = f": {command}" if known else " with scadgen kit"
         msg = (
             f"kit version {document.get('version')!r}: this scadgen {__version__} reads version "
             f"{VERSION}; make it again{again}"
