@@ -141,7 +141,7 @@ def stub_kit(
         command=command,
         values=values,
         ranges=ranges(values),
-        parts={name: _as(real.parts[name], parts[name]) for name in names},
+        parts={name: as_part(real.parts[name], parts[name]) for name in names},
         joints=(
             replace(
                 real.joints[0],
@@ -153,7 +153,7 @@ def stub_kit(
     return laid_out(stub, rows, columns)
 
 
-def _as(part: Part, solid: AffineSolid) -> Part:
+def as_part(part: Part, solid: AffineSolid) -> Part:
     """Another solid in a part's place."""
     return Part.of(solid, part.role, part.ends, part.length)
 

@@ -171,10 +171,6 @@ def test_a_kit_read_back_has_its_bill():
     read = loads(dumps(made))
     assert (read.material, read.slicing) == ("ABS", sliced)
     assert dumps(read) == dumps(made)
-    # Kits of before there was one are read still.
-    document = json.loads(dumps(made))
-    del document["bill_of_materials"]
-    assert loads(json.dumps(document)).material == "PLA"
 
 
 @pytest.mark.parametrize(
@@ -330,12 +326,12 @@ def test_a_bill_is_kept_in_all_files_or_in_none(
     assert contents(folder) == before
 
 
-def test_a_kit_of_which_nothing_is_placed_has_an_empty_bill(run, stand_in, tmp_path):
+def test_a_kit_of_which_nothing_is_placed_is_refused(run, stand_in, tmp_path):
     called = stand_in()
     (tmp_path / "kit.json").write_text(dumps(replace(tee(), placements=())))
     code, out, err = run("bill", tmp_path)
-    assert (code, err) == (0, "")
-    assert out.splitlines()[1:] == ["0 pieces, without spares: 0 g of PLA printed solid"]
+    assert (code, out) == (2, "")
+    assert "placements: each edge must have one element, in order" in err
     assert not called.exists()
 
 

@@ -119,7 +119,9 @@ def test_elements_reach_from_vertex_to_vertex_and_caps_point_nowhere(name):
     for p in made.placements:
         near, *far = (np.array(made.vertices[end.vertex].pose.at) for end in p.ends)
         assert np.allclose(p.pose.at, near, rtol=0, atol=1e-8)
+        keyed = [end.slot in keys(made, end.vertex) for end in p.ends]
         if far:
+            assert [end.is_key for end in made.parts[p.part].ends] == keyed
             reach = near + made.parts[p.part].length * np.array(p.pose.x)
             assert np.allclose(reach, far[0], rtol=0, atol=1e-6)
 

@@ -182,8 +182,8 @@ def test_a_grid_that_is_made_as_other_frames_are_is_told(run, tmp_path):
     assert code == 0
     assert load(tmp_path / "open").rows == 0
     assert out.startswith(
-        "note: with --snap and --rim this square frame is made as other frames are: its pegs are "
-        "loose, and its rows and columns cannot be set later\n"
+        "note: with --snap and --rim the rows and columns of this square frame cannot be set "
+        "later\n"
     )
     assert "note" not in run(*words, "-o", tmp_path / "grid")[1]
 
@@ -347,7 +347,8 @@ WEAVES = {
 BAD_KITS = [
     ("hexagonl", (), "shows, such as hexagonal, or a file that ends in .dxf, "),
     ("", (), "frame '': must be a name that scadgen frame --list shows, or a file that ends in "),
-    ("ladder", ("--key", "fixed"), "key = 'fixed': must be loose, so that each joint"),
+    ("triangular", ("--key", "fixed"), "key = 'fixed': with pegs that are part of tubes a frame"),
+    ("ladder", ("--key", "glued"), "key = 'glued': must be one of fixed, loose"),
     ("ladder", ("--rim", "round"), "rim = 'round': must be one of caps, open"),
     ("ladder", ("--weave", "4-loose"), "weave 4-loose: each joint of this frame has one of its"),
     ("ladder", ("--radius", "9"), "frame ladder: no option --radius; it has "),
@@ -440,7 +441,7 @@ EDITS = {
     "truncated": (lambda text: text[: len(text) // 2], "truncated or not JSON"),
     "emptied": (lambda _: "", "truncated or not JSON"),
     "another version": (
-        lambda text: text.replace('"version": 4', '"version": 7'),
+        lambda text: text.replace('"version": 5', '"version": 7'),
         "kit version 7: this scadgen",
     ),
     "another format": (lambda text: text.replace("scadgen-kit", "gear-kit"), "not a sound kit"),

@@ -153,7 +153,7 @@ def test_a_kit_stays_in_its_circle_whatever_the_length_of_its_edges(name, side, 
     assert ended.value.code == 0
     made = load(tmp_path / "kit")
     # The circle's centre is in the middle of a tile; somewhere the next one would stick out.
-    far, shortest = np.linalg.norm(made.graph.vertices, axis=1).max(), made.graph.lengths.min()
+    far, shortest = np.linalg.norm(made.frame.vertices, axis=1).max(), made.frame.lengths.min()
     assert 250 / 3 < far <= 250 + 1e-6
     assert shortest == pytest.approx(given or side * round(shortest / side))
     assert shortest >= 6 * side - 1e-6
@@ -165,7 +165,7 @@ def test_rectangles_in_a_circle_are_as_large_as_is_said(tmp_path):
     with pytest.raises(SystemExit) as ended:
         main(["kit", *words, "-o", str(tmp_path / "kit")])
     assert ended.value.code == 0
-    graph = load(tmp_path / "kit").graph
+    graph = load(tmp_path / "kit").frame
     assert np.linalg.norm(graph.vertices, axis=1).max() <= 300 + 1e-6
     assert set(graph.lengths.round(6)) == {90, 120}
 

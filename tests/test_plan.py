@@ -108,8 +108,9 @@ def poses(entry, move, step=1.0):
     """Poses in the frame, so many that no point within 150 mm moves farther than a step."""
     way = entry["ways"][move["way"]]
     middle, keys = np.array(way["middle_mm"]), np.array(way["steps"])
-    spin = Rotation.from_euler("z", move["turn_deg"], degrees=True)
-    origin = np.array([*move["at_mm"], 0.0])
+    axes = np.array([move["x"], np.cross(move["z"], move["x"]), move["z"]])
+    spin = Rotation.from_matrix(axes.T)
+    origin = np.array(move["at_mm"])
     for one, other in itertools.pairwise(keys):
         first, last = Rotation.from_rotvec(one[3:]), Rotation.from_rotvec(other[3:])
         turning = (first.inv() * last).as_rotvec()
@@ -347,6 +348,8 @@ def test_pictures_are_as_large_as_what_they_show(frame):
             [float(x) for x in e.get("transform").split("(")[1].split(")")[0].split()]
             for e in page.iter(f"{SVG}use")
         ]
+        joints = (e for look in ("busy", "joint") for e in of_class(page, look))
+        at += [[float(e.get("cx")), float(e.get("cy"))] for e in joints]
         low, top = np.min(at, axis=0)
         right, bottom = np.max(at, axis=0)
         assert low > 0 < top
@@ -363,8 +366,8 @@ def test_how_parts_go_in_is_how_their_ways_end(frame):
             _, _, rise = entry["ways"][move["way"]]["steps"][-1][:3]
             assert move["from"] == ("plane" if abs(rise) < 5 else "above" if rise > 0 else "below")
             if step["what"] == "pegs":  # along its edge, out of the ring or into it
-                turn = entry["parts"][move["parts"][0]]["turn_deg"]
-                off = (move["towards_deg"] - turn) % 180
+                x, y, _ = entry["parts"][move["parts"][0]]["x"]
+                off = (move["towards_deg"] - math.degrees(math.atan2(y, x))) % 180
                 assert min(off, 180 - off) < 1
 
 

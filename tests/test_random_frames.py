@@ -62,7 +62,7 @@ def test_a_joint_in_the_way_of_an_edge_is_refused_with_what_would_do():
     # Around it are the ring, half a side, half a tube, and a quarter of a side.
     ring = any_joint(2 * np.arctan2(140, 215)).ring_ratio
     assert float(times) == pytest.approx(10 * (ring + 1.25) / 35, rel=0.02)
-    assert build(replace(wish, graph=past_a_corner(35 * float(times) + 3))).joints
+    assert build(replace(wish, frame=past_a_corner(35 * float(times) + 3))).joints
 
 
 def test_a_frame_that_may_grow_grows_until_its_joints_keep_apart():

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
-from stub_kit import loft, stub_kit, with_joint
+from stub_kit import as_part, loft, stub_kit, with_joint
 
 from scadgen.emit.picture import COLOURS
 from scadgen.emit.scad import parameter_sets, scad
@@ -253,7 +253,8 @@ def test_coupon_by_hand(chamfer, tmp_path):
 
 def without_chamfer(kit):
     bare = {
-        n: loft(n, [({}, {"side": 0.5}, {}), ({"side": 1}, {"side": 0.5}, {})]) for n in kit.parts
+        n: as_part(p, loft(n, [({}, {"side": 0.5}, {}), ({"side": 1}, {"side": 0.5}, {})]))
+        for n, p in kit.parts.items()
     }
     return replace(
         kit,

@@ -49,7 +49,7 @@ def choose_keys_in_rows(places: Places, parts: Callable[[Keys], int]) -> Keys:
     best: tuple[tuple[float, ...], Keys] | None = None
     for keys in _choices(places):
         sines = np.sin([places.direction(v, slot) for v, (slot,) in enumerate(keys)])
-        if not Rows(places, keys).slide_apart():
+        if not _Rows(places, keys).slide_apart():
             continue
         upright, below = (round(float(s.sum()), _DECIMALS) for s in (-np.abs(sines), sines))
         rank = (parts(keys), upright, below)
@@ -90,7 +90,7 @@ class _Peg:
     out: Floats
 
 
-class Rows:
+class _Rows:
     """A frame as rows.
 
     Parameters

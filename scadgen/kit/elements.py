@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from scadgen.frame.alike import Slots
 from scadgen.frame.kinds import Kinds
@@ -71,12 +71,22 @@ class Elements:
     kinds: Mapping[str, Element]
     laid: Sequence[Laid]
 
-    def renamed(self, name: Callable[[Element], str]) -> Elements:
-        """The same with other names."""
-        return Elements(
-            {name(element): element for element in self.kinds.values()},
-            [replace(one, name=name(self.kinds[one.name])) for one in self.laid],
-        )
+    def by_keys(self, known: Mapping[str, Element]) -> Elements:
+        """The same with the names, and the near ends, of elements that are told by their keys.
+
+        Parameters
+        ----------
+        known
+            Those elements by name; no two have a key at as many ends.
+        """
+        names = {sum(_keyed(one)): name for name, one in known.items()}
+        laid = []
+        for one in self.laid:
+            own = _keyed(self.kinds[one.name])
+            name = names[sum(own)]
+            turned = own != _keyed(known[name])
+            laid.append(Laid(name, one.swapped != turned, one.flipped))
+        return Elements({one.name: known[one.name] for one in laid}, laid)
 
 
 def edge_elements(
@@ -108,6 +118,11 @@ def edge_elements(
     names = list(found)
     laid = zip(alike.which.tolist(), alike.swapped.tolist(), alike.flipped.tolist(), strict=True)
     return Elements(found, [Laid(names[n], swapped, flipped) for n, swapped, flipped in laid])
+
+
+def _keyed(element: Element) -> list[bool]:
+    """Whether there is a key at each of an element's ends."""
+    return [end.slot is None for end in element.ends]
 
 
 def _end(kinds: int, most: int, what: int, over: bool) -> ElementEnd:  # noqa: FBT001

@@ -179,8 +179,8 @@ def _needed(request: Request, found: Design) -> float:
     """Length of its shortest edges, in mm, with which a frame has room for its joints."""
     side, shortest = request.side, _shortest(found.same)
     need = shortest * least_scale(found.frame, side, found.rings, _ROOM[request.key])
-    wider = 0.0 if request.regular else WIDER[-1]
-    need = max(need, shortest * Apart(found.frame, found.rings + wider).least_scale(side))
+    if not request.regular:  # whose joints keep apart if their edges are long enough
+        need = max(need, shortest * Apart(found.frame, found.rings + WIDER[-1]).least_scale(side))
     return max(6, math.ceil(need / side - 1e-9)) * side
 
 

@@ -63,7 +63,7 @@ class Solids:
         """Its edge elements."""
         named = self.named
         found = edge_elements(self.kinds, self.edges, self.lengths, named.sockets, named.slots)
-        return found.renamed(_by_keys) if self.regular else found
+        return found.by_keys(self._made) if self.regular else found
 
     @cached_property
     def _made(self) -> dict[str, Element]:
@@ -153,8 +153,3 @@ class Solids:
     def _part_end(self, number: int, slot: int | None, *, over: bool = False) -> PartEnd:
         own = None if slot is None else self.kinds.from_first_key(number, slot)
         return PartEnd(self.kinds.name(number), own, over)
-
-
-def _by_keys(element: Element) -> str:
-    """The name of a regular joint's element."""
-    return REGULAR[sum(end.slot is None for end in element.ends)]

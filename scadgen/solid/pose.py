@@ -57,8 +57,8 @@ class Pose:
             Whether it is turned over, so that its z axis points down.
         """
         s, c = _sine_and_cosine(degrees)
-        place = tuple(float(v) for v in (*at, 0.0)[:3])
-        return cls((place[0], place[1], place[2]), (c, s, 0.0), (0.0, 0.0, -1.0 if over else 1.0))
+        px, py, pz = (float(v) for v in (*at, 0.0)[:3])
+        return cls((px, py, pz), (c, s, 0.0), (0.0, 0.0, -1.0 if over else 1.0))
 
     @classmethod
     def of(cls, at: ArrayLike, axes: ArrayLike) -> Pose:
