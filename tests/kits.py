@@ -8,7 +8,7 @@ from shared import once
 from scadgen.check.proof import proved
 from scadgen.element.pieces import Piece, add_surface
 from scadgen.emit.scad import scad
-from scadgen.frame.catalogue import NamedTiling
+from scadgen.frame.catalogue import NAMES, NamedTiling
 from scadgen.frame.graph import make_frame
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.weave import BUILT_IN
@@ -52,6 +52,12 @@ def kit(frame, key="fixed", bore=0.0, detail="draft"):
     """A kit, not proved."""
     request = grid(frame, key, detail=detail, values={"bore": bore} if bore else {})
     return once(f"kit-{frame}-{key}-{bore}-{detail}", lambda _: build(request))
+
+
+def tiled(name):
+    """The kit of a named tiling, of one cell; not proved."""
+    request = grid(name, "loose", detail="draft", regular=NAMES[name].regular, rows=1, columns=1)
+    return once(f"kit-tiled-{name}", lambda _: build(request))
 
 
 def tee():

@@ -4,19 +4,24 @@ import ast
 import copy
 import json
 import sys
+from collections import Counter
 
 import numpy as np
 import pytest
-from kits import kit, random_inside, tee
+from kits import kit, random_inside, tee, tiled
 
 from scadgen.emit.macro import workbench
 from scadgen.frame import placement
-from scadgen.frame.layout import LAYOUTS
+from scadgen.frame.catalogue import NAMES
+from scadgen.kit import cells as engine_cells
+from scadgen.kit import model
+from scadgen.kit.entries import pose_entry
+from scadgen.kit.solids import REGULAR
 from scadgen.kit.store import dumps
 from scadgen.solid import affine
 
 sys.path.append(str(workbench()))
-from freecad.scadgen import layout
+from freecad.scadgen import cells, sense
 from freecad.scadgen.affine import KitError, parse_kit, read_kit
 from freecad.scadgen.faces import newell
 
@@ -58,16 +63,48 @@ def test_faces_cover_the_surface_and_stay_flat(made):
                 assert np.abs((corners - corners[0]) @ normal).max() < 1e-6, name
 
 
-@pytest.mark.parametrize(("rows", "columns"), [(1, 1), (1, 4), (3, 2), (4, 5)])
-@pytest.mark.parametrize("key", ["fixed", "loose"])
-@pytest.mark.parametrize("frame", ["hexagonal", "square"])
-def test_placements_are_those_of_the_layout(frame, key, rows, columns):
-    document = json.loads(dumps(the(frame))) | {"rows": rows, "columns": columns, "key": key}
-    found = parse_kit(json.dumps(document)).placements
-    ours = LAYOUTS[frame](rows, columns, key)
-    assert [(p["part"], tuple(p["at"]), p["turn"], p["flip"], p["role"]) for p in found] == [
-        (p.part, p.at, p.turn, p.flip, p.role) for p in ours
-    ]
+def places(found):
+    """The same for the same placements, in whatever order."""
+    return Counter((p["part"], p["role"], *map(tuple, (p["at"], p["x"], p["z"]))) for p in found)
+
+
+TILINGS = [name for name, family in NAMES.items() if "rows" in family.options]
+
+
+@pytest.mark.parametrize("name", TILINGS)
+def test_any_rows_and_columns_stand_where_the_engine_has_them(name):
+    made = tiled(name)
+    data = parse_kit(dumps(made))
+    for rows, columns in ((1, 1), (2, 3), (5, 4)):
+        ours = made.cells.laid(rows, columns).placements
+        entries = [{"part": p.part, "role": p.role, **pose_entry(p.pose)} for p in ours]
+        assert places(data.placements(rows, columns)) == places(entries)
+        assert {(p.role, p.part) for p in ours} <= {*data.frame_pieces}
+
+
+def test_a_frame_without_cells_stands_as_it_is():
+    data = parse_kit(dumps(tee()))
+    ours = [{"part": p.part, "role": p.role, **pose_entry(p.pose)} for p in tee().placements]
+    assert not data.has_cells
+    assert places(data.placements(0, 0)) == places(data.placements(9, 9)) == places(ours)
+
+
+def test_each_kind_of_joint_has_its_pieces():
+    made = tiled("4.6.12")
+    data = parse_kit(dumps(made))
+    for joint in made.joints:
+        ours = [{"part": p.part, "role": p.role, **pose_entry(p.pose)} for p in joint.pieces]
+        assert places(data.pieces(joint.name)) == places(ours)
+    with pytest.raises(KitError, match=r"^joint = 'Z': must be one of 'A', 'B'$"):
+        data.pieces("Z")
+
+
+def test_parts_know_what_they_are_for():
+    data = parse_kit(dumps(the("square")))
+    assert [data.parts[n].keys for n in ("basic", "one_sided", "two_sided")] == [0, 1, 2]
+    assert [data.parts[n].role for n in data.parts][3:] == ["connector", "half", "peg", "tube"]
+    second = {n for n, part in parse_kit(dumps(tiled("4.8.8"))).parts.items() if part.is_second}
+    assert second == {"half_A1_over"}
 
 
 def test_values_out_of_range_are_named_with_what_works():
@@ -112,11 +149,14 @@ def piece(name, value):
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        (set_in("version", value=5), "kit version 5: this reads version 4; update it, or"),
+        (
+            set_in("version", value=4),
+            "kit version 4: this reads version 5; make it again with scadgen kit",
+        ),
         (set_in("format", value="kit"), "not a kit: format is not scadgen-kit"),
         (drop("ranges"), "not a sound kit: 'ranges' is missing; make it again"),
         (drop("parts"), "not a sound kit: 'parts' is missing"),
-        (set_in("frame", value="round"), "frame = 'round': must be one of hexagonal, square"),
+        (set_in("name", value="../up"), "name = '../up': must be a name for files"),
         (set_in("values", "clearance", value=99), "clearance = 99 mm: must be 0 to"),
         (set_in("values", "clearance", value="x"), "not a sound kit: "),
         (set_in("values", "clearance", value=float("nan")), "not a sound kit: "),
@@ -143,7 +183,7 @@ def piece(name, value):
         (set_in("columns", value=2.0), "columns = 2.0: must be"),
         (set_in("key", value="glue"), "key = 'glue': must be one of fixed, loose"),
         (set_in("key", value=["fixed"]), "key = ['fixed']: must be text"),
-        (set_in("frame", value={}), "frame = {}: must be text"),
+        (set_in("name", value={}), "name = {}: must be a name for files"),
         (set_in("command", value=3), "command = 3: must be text"),
         (set_in("detail", value=None), "detail = None: must be text"),
         (set_in("ranges", 0, "reason", value=3), "reason = 3: must be text"),
@@ -152,7 +192,14 @@ def piece(name, value):
         (set_in("values", "side", value="10"), "side = '10': must be a finite number of mm"),
         (set_in("values", "side", value=10**400), "not a sound kit: "),
         (drop("values", "peg_length"), "live parameter peg_length is missing"),
-        (drop("parts", "tube"), "part tube is missing"),
+        (drop("parts", "basic"), "there is no part 'basic'"),
+        (set_in("parts", "../up", value={}), "name of a part = '../up': must be letters"),
+        (set_in("parts", "peg", "role", value="hero"), "role of a part = 'hero': must be one of"),
+        (set_in("parts", "peg", "length", value="1"), "length of a part = '1': must be"),
+        (set_in("parts", "half", "ends", value=[]), "ends of a part = []: must be"),
+        (set_in("parts", "half", "ends", 0, "slot", value="0"), "slot of an end = '0': must be"),
+        (set_in("parts", "half", "ends", 0, "over", value=1), "over of an end = 1: must be"),
+        (drop("parts", "peg", "ends"), "not a sound kit: 'ends' is missing"),
         (set_in("joints", value=[]), "joints = []: must be at least one"),
         (set_in("joints", 0, "name", value=1), "name of a joint = 1: must be text"),
         (set_in("joints", 0, "connectors", value=[]), "connectors of a joint = []: must be"),
@@ -165,14 +212,22 @@ def piece(name, value):
         ),
         (drop("joints", 0, "weave", "bend"), "not a sound kit: 'bend' is missing"),
         (piece("part", "cog"), "there is no part 'cog'"),
-        (piece("at", [0.0]), "at = [0.0]: must be two finite numbers"),
-        (piece("at", [0.0, "x"]), "at = [0.0, 'x']: must be two finite numbers"),
-        (piece("at", [0.0, 1e999]), "at = [0.0, inf]: must be two finite numbers"),
-        (piece("turn", float("nan")), "turn = nan: must be a finite number of degrees"),
-        (piece("flip", 1), "flip = 1: must be true or false"),
+        (piece("at", [0, 0]), "at = [0, 0]: must be three finite numbers"),
+        (piece("at", [0, 0, "x"]), "at = [0, 0, 'x']: must be three finite numbers"),
+        (piece("at", [0, 0, 1e999]), "at = [0, 0, inf]: must be three finite numbers"),
+        (piece("x", [1, 0]), "x = [1, 0]: must be three finite numbers"),
+        (piece("z", [0, 0, 2]), "must be unit vectors, square to each other"),
+        (piece("z", [1, 0, 0]), "must be unit vectors, square to each other"),
         (piece("role", "hero"), "role = 'hero': must be one of row, cross, half_a,"),
         (piece("role", "a\nb" * 99), "role = 'a\\nb"),
         (set_in("joints", 0, value=3), "not a sound kit: "),
+        (set_in("cells", "across", value=[1]), "across = [1]: must be two finite numbers"),
+        (set_in("cells", "up", value=3), "up = 3: must be two finite numbers"),
+        (set_in("cells", "drift", value="1"), "drift = '1': must be a finite number of cells"),
+        (set_in("cells", "pieces", value=[]), "placements: must be at least one"),
+        (drop("cells", "pieces", 0, "any_of"), "not a sound kit: 'any_of' is missing"),
+        (set_in("cells", "pieces", 0, "any_of", value=[[0.5, 0]]), "cell in any_of = [0.5, 0]:"),
+        (set_in("cells", "pieces", 0, "none_of", value=[[0]]), "cell in none_of = [0]: must be"),
         (set_in("parts", value=3), "not a sound kit: "),
     ],
 )
@@ -189,12 +244,11 @@ def test_a_broken_kit_is_refused_in_one_line(change, says):
         (set_in("rows", value=2), "rows = 2: must be 0"),
         (set_in("placements", value=[]), "placements: must be at least one"),
         (set_in("placements", 0, "role", value="hero"), "role = 'hero': must be"),
-        (set_in("placements", 0, "at", value=3), "at = 3: must be two finite numbers"),
+        (set_in("placements", 0, "at", value=3), "at = 3: must be three finite numbers"),
         (drop("placements"), "not a sound kit: 'placements' is missing"),
     ],
 )
 def test_a_broken_kit_of_another_frame_is_refused_in_one_line(change, says):
-    assert not parse_kit(dumps(tee())).is_grid
     with pytest.raises(KitError) as refused:
         parse_kit(broken(change, tee()))
     assert says in str(refused.value)
@@ -202,18 +256,29 @@ def test_a_broken_kit_of_another_frame_is_refused_in_one_line(change, says):
 
 
 def test_both_sides_know_the_same_names():
-    assert layout.PARAMETERS == affine.PARAMETERS
-    assert (layout.PARTS, layout.KEYS) == (placement.PARTS, placement.KEYS)
+    assert sense.PARAMETERS == affine.PARAMETERS
+    assert (sense.ROLES, sense.KEYS) == (placement.ROLES, placement.KEYS)
+    assert sense.PART_ROLES == model.PART_ROLES
+    assert cells.MOST_CELLS == engine_cells.MOST_CELLS
     path = workbench() / "freecad" / "scadgen" / "names.py"
     tables = {
         node.targets[0].id: tuple(key.value for key in node.value.keys)
         for node in ast.parse(path.read_text("utf-8")).body
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Dict)
     }
-    assert tables["LENGTHS"] == layout.PARAMETERS
-    assert tables["KINDS"] == layout.PARTS
-    assert tables["COLOURS"] == tables["ROLE_LABELS"] == layout.ROLES
-    assert tables["FRAMES"] == tuple(layout.LAYOUTS)
+    assert tables["LENGTHS"] == sense.PARAMETERS
+    assert tables["_LABELS"] == tables["_ALONE"] == sense.PART_ROLES
+    assert tables["COLOURS"] == tables["ROLE_LABELS"] == sense.ROLES
+    assert tables["_REGULAR"] == REGULAR
+
+
+def test_an_older_kit_names_the_command_that_makes_it_again():
+    known, no_command = "scadgen kit square", "a\nb"
+    for command, how in ((known, f": {known}"), (no_command, " with scadgen kit")):
+        text = json.dumps({"format": "scadgen-kit", "version": 4, "command": command})
+        with pytest.raises(KitError) as refused:
+            parse_kit(text)
+        assert str(refused.value) == f"kit version 4: this reads version 5; make it again{how}"
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", "3", None, "[" * 100000])
@@ -237,4 +302,4 @@ def test_files_that_cannot_be_read_are_named(tmp_path):
 def test_a_kit_is_read_from_its_folder(tmp_path):
     (tmp_path / "kit.json").write_text(dumps(the("square")), encoding="utf-8")
     data = read_kit(tmp_path)
-    assert (data.frame, data.key, data.values) == ("square", "loose", the("square").values)
+    assert (data.name, data.key, data.values) == ("square", "loose", the("square").values)

@@ -6,11 +6,10 @@ import sys
 import freecadcmd
 import numpy as np
 import pytest
-from kits import bounds, inside, kit, random_inside, tee
+from kits import bounds, inside, kit, random_inside, tee, tiled
 from python38 import newer
 
 from scadgen.emit.macro import macro
-from scadgen.frame.layout import LAYOUTS
 from scadgen.solid.affine import PARAMETERS
 from scadgen.solid.mesh import volume
 
@@ -30,7 +29,7 @@ def made(request):
 
 @pytest.fixture
 def file(made, tmp_path):
-    path = tmp_path / f"{made.frame}.FCMacro"
+    path = tmp_path / f"{made.name}.FCMacro"
     path.write_text(macro(made), encoding="utf-8")
     return path
 
@@ -98,27 +97,29 @@ def test_every_part_is_the_same_solid_at_any_setting(made, file, tmp_path):
 
 
 def test_the_macro_of_any_frame_opens_it_with_sound_solids(tmp_path):
-    made = tee()
-    path = tmp_path / "tee.FCMacro"
-    path.write_text(macro(made), encoding="utf-8")
-    found, said = freecadcmd.run("macro.py", tmp_path, task="opens", macro=str(path))
-    assert found["valid"] == [True] * len(made.parts)
-    assert list(found["parts"]) == list(made.parts)
-    for name, facts in found["parts"].items():
-        same(facts, made, name, made.values)
-    sizes = {name: expected(made, name, made.values)[0] for name in made.parts}
-    pieces = {"Frame": made.placements} | {f"Joint{j.name}": j.pieces for j in made.joints}
-    wholes = {name: sum(sizes[p.part] for p in placed) for name, placed in pieces.items()}
-    assert found["wholes"] == pytest.approx(wholes, rel=1e-6)
+    kits = {"tee": tee(), "cairo": tiled("V3.3.4.3.4")}
+    for name, made in kits.items():
+        (tmp_path / f"{name}.FCMacro").write_text(macro(made), encoding="utf-8")
+    paths = [str(tmp_path / f"{name}.FCMacro") for name in kits]
+    opened, said = freecadcmd.run("macro.py", tmp_path, task="opens", macros=paths)
+    for made, found in zip(kits.values(), opened, strict=True):
+        assert found["valid"] == [True] * len(made.parts)
+        assert list(found["parts"]) == list(made.parts)
+        for name, facts in found["parts"].items():
+            same(facts, made, name, made.values)
+        sizes = {name: expected(made, name, made.values)[0] for name in made.parts}
+        pieces = {"Frame": made.placements} | {f"Joint{j.name}": j.pieces for j in made.joints}
+        wholes = {name: sum(sizes[p.part] for p in placed) for name, placed in pieces.items()}
+        assert found["wholes"] == pytest.approx(wholes, rel=1e-6)
+        assert found["counts"] == ([] if made.cells is None else [1, 1])
     assert "rror" not in said
 
 
 def matrix(placement, edge_length):
-    """Four by four, row by row: half turn about x, turn about z, move."""
-    c, s = np.cos(np.radians(placement.turn)), np.sin(np.radians(placement.turn))
-    f = -1 if placement.flip else 1
-    x, y = np.array(placement.at) * edge_length
-    return [c, -s * f, 0, x, s, c * f, 0, y, 0, 0, f, 0, 0, 0, 0, 1]
+    """Four by four, row by row: where x, y and z of the part point, and where it is."""
+    x, z, at = (np.array(v) for v in (placement.pose.x, placement.pose.z, placement.pose.at))
+    rows = np.column_stack([x, np.cross(z, x), z, at * edge_length])
+    return [*rows.ravel(), 0, 0, 0, 1]
 
 
 def assert_placed(found, placements, edge_length):
@@ -132,14 +133,17 @@ def assert_placed(found, placements, edge_length):
 
 
 def test_joint_and_frame_are_links_to_the_parts(made, file, tmp_path):
-    found, _ = freecadcmd.run("macro.py", tmp_path, task="assembly", macro=str(file), wider=123.0)
+    found, _ = freecadcmd.run(
+        "macro.py", tmp_path, task="assembly", macro=str(file), wider=123.0, rows=5, columns=1
+    )
     assert found["types"] == ["App::Link", "App::LinkPython"]
-    frame = LAYOUTS[made.frame](made.rows, made.columns, made.key)
+    frame, wider = made.placements, made.cells.laid(5, 1).placements
     for name, placements in (("joint", made.joints[0].pieces), ("frame", frame)):
         sizes = [expected(made, p.part, made.values)[0] for p in placements]
         assert found[f"{name}_volume"] == pytest.approx(sum(sizes), rel=1e-6)
     assert_placed(found["joint"], made.joints[0].pieces, 0.0)
-    assert_placed(found["frame"], frame, 123.0)
+    assert_placed(found["frame"], wider, 123.0)
+    assert found["none"] == "rows = 0: must be a whole number from 1 to 100"
 
 
 def test_spreadsheet_drives_the_parts_and_what_is_out_of_range_is_refused(made, file, tmp_path):

@@ -16,5 +16,5 @@ def test_every_button_does_what_it_says(tmp_path):
         with Image.open(folder / f"{name}.png") as picture:
             assert picture.size == (1280, 800)
             assert len(picture.convert("RGB").getcolors(1280 * 800)) > 500, name
-    for words in ("no such program", "is not scadgen", "killed or crashed midway", "kit version 5"):
+    for words in ("no such program", "is not scadgen", "killed or crashed midway", "kit version 6"):
         assert any(words in line for line in said.splitlines()), words

@@ -4,18 +4,19 @@ import csv
 import re
 
 import freecadcmd
+import numpy as np
 import pytest
 import trimesh
-from kits import kit
+from kits import kit, tee, tiled
 from workbench import linked, objects
 
-from scadgen.frame.layout import LAYOUTS, bill
+from scadgen.frame.placement import bill
 from scadgen.solid.mesh import volume
 
 NAMES = {
-    "basic": "BasicElement",
-    "one_sided": "One_SidedElement",
-    "two_sided": "Two_SidedElement",
+    "basic": "Basic",
+    "one_sided": "OneSided",
+    "two_sided": "TwoSided",
     "connector": "Connector",
     "half": "Half",
     "peg": "Peg",
@@ -48,7 +49,7 @@ def test_every_part_has_the_engines_volume(session, made):
 
 def test_properties_say_how_many_how_large_and_how_heavy(session, made):
     found = session["make"]
-    counts = bill(LAYOUTS["hexagonal"](2, 2, "fixed"))
+    counts = bill(made.placements, made.parts)
     each = expected(made)
     total = sum(n * each[NAMES[part]] for part, n in counts.items())
     assert found["bill"] == [f"{n} {part}" for part, n in counts.items()]
@@ -91,9 +92,9 @@ def test_parts_are_placed_and_attached(session):
     assert session["edit"]["attached"] == 50
 
 
-def test_a_frame_has_rows_of_its_own_and_the_kits_edge_length(session):
+def test_a_frame_has_rows_of_its_own_and_the_kits_edge_length(session, made):
     found = session["edit"]
-    count = len(LAYOUTS["hexagonal"](3, 2, "fixed"))
+    count = len(made.cells.laid(3, 2).placements)
     assert found["rows"] == [count, 61]
     assert found["pitch"] == pytest.approx(70)
 
@@ -120,15 +121,58 @@ def test_what_fails_midway_leaves_nothing(session):
 
 def test_older_objects_are_brought_up_to_date_and_newer_ones_left_alone(session):
     found = session["old"]
-    assert (found["half"], found["peg"]) == ([True, 1], [False, 99])
+    assert (found["half"], found["peg"]) == ([True, 2], [False, 99])
     assert "Peg: made by a newer scadgen workbench" in session["said"]
 
 
 def test_a_kit_of_a_newer_version_is_said_so_and_shapes_stay(session):
     found = session["old"]
-    assert found["kit"].startswith("kit version 7: this reads version 4; update it")
+    assert found["kit"].startswith("kit version 7: this reads version 5; make it again")
     assert found["kept"]
-    assert "Kit: Hexagons: kit version 7" in session["said"]
+    assert "Kit: hexagonal: kit version 7" in session["said"]
+
+
+def matrix(placement, edge_length):
+    """Row by row: where x, y and z of the part point, and where it is, in mm."""
+    x, z, at = (np.array(v) for v in (placement.pose.x, placement.pose.z, placement.pose.at))
+    rows = np.column_stack([x, np.cross(z, x), z, at * edge_length])
+    return [*rows.ravel(), 0, 0, 0, 1]
+
+
+def assert_placed(found, placements, edge_length):
+    """The same parts at the same places, in whatever order."""
+    ours = [(p.part, *matrix(p, edge_length)) for p in placements]
+    rows = [sorted(r, key=lambda r: (r[0], *np.round(r[1:], 3) + 0.0)) for r in (found, ours)]
+    assert [r[0] for r in rows[0]] == [r[0] for r in rows[1]]
+    np.testing.assert_allclose([r[1:] for r in rows[0]], [r[1:] for r in rows[1]], atol=1e-9)
+
+
+@pytest.mark.parametrize("name", ["cells", "drawn"])
+def test_kits_of_any_frame_are_opened(session, name):
+    made = {"cells": tiled("V3.3.4.3.4"), "drawn": tee()}[name]
+    found, edge = session["other"][name], made.values["edge_length"]
+    assert found["invalid"] == {}
+    assert [*found["volumes"].values()] == pytest.approx(
+        [volume(s.points(made.values), s.triangles) for s in made.parts.values()]
+    )
+    assert {*found["joints"]} == {joint.name for joint in made.joints}
+    for joint in made.joints:
+        assert_placed(found["joints"][joint.name], joint.pieces, edge)
+    assert_placed(found["frame"], made.placements, edge)
+    assert found["counts"] == found["of_frame"] == (["Rows", "Columns"] if made.cells else [])
+
+
+def test_a_frame_of_any_cells_grows(session):
+    made = tiled("V3.3.4.3.4")
+    placed, pieces = session["other"]["cells"]["more"]
+    ours = made.cells.laid(3, 2).placements
+    assert_placed(placed, ours, made.values["edge_length"])
+    assert pieces == len(ours)
+
+
+def test_parts_of_any_frame_are_called_by_what_they_are_for(session):
+    labels = session["other"]["cells"]["labels"]
+    assert {"Edge element 1", "Connector A1", "Half A1"} <= {*labels}
 
 
 def test_without_the_workbench_shapes_and_properties_stay(session, made):
@@ -138,7 +182,7 @@ def test_without_the_workbench_shapes_and_properties_stay(session, made):
     assert {n: found["volumes"][n] for n in sizes} == pytest.approx(sizes)
     assert found["kept"]
     assert found["half"][0] == 0.2
-    assert found["frame"] == len(LAYOUTS["hexagonal"](3, 2, "fixed"))
+    assert found["frame"] == len(made.cells.laid(3, 2).placements)
 
 
 def test_restore_gives_all_their_behaviour_back(session, made):

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import freecadcmd
-from kits import kit
+from kits import kit, tee, tiled
 from shared import once
 
 from scadgen.emit.macro import workbench
@@ -38,13 +38,15 @@ def _three_starts(place):
     ours, bare, folder = linked(place / "ours"), place / "bare", place / "folder"
     bare.mkdir()
     folder.mkdir()
-    (place / "kit.json").write_text(dumps(kit("hexagonal")), encoding="utf-8")
-    places = {"kit": str(place / "kit.json"), "folder": str(folder)}
+    kits = {"kit": kit("hexagonal"), "cells": tiled("V3.3.4.3.4"), "drawn": tee()}
+    places = {name: str(place / f"{name}.json") for name in kits} | {"folder": str(folder)}
+    for name, made in kits.items():
+        Path(places[name]).write_text(dumps(made), encoding="utf-8")
 
     def run(home, *steps):
         return freecadcmd.run("objects.py", home, steps=steps, **places)
 
-    found, said = run(ours, "make", "edit", "refuse", "old")
+    found, said = run(ours, "make", "edit", "refuse", "old", "other")
     without, _ = run(bare, "bare")
     again, _ = run(ours, "restore", "export")
     return {**found, **without, **again, "said": said, "folder": folder}

@@ -19,7 +19,7 @@ from scadgen.kit.store import dumps
 __all__ = ["macro", "workbench"]
 
 #: The modules that the macro is put together from, each after those it imports.
-_MODULES = ("faces", "layout", "sense", "affine", "brep", "shape", "names", "refusal", "macro")
+_MODULES = ("faces", "cells", "sense", "affine", "brep", "shape", "names", "refusal", "macro")
 
 #: What modules import from each other, and the macro has in one place.
 _PACKAGE = "freecad.scadgen"
@@ -67,7 +67,7 @@ def macro(kit: Kit) -> str:
         .get_template("macro.FCMacro.j2")
         .render(
             version=scadgen.__version__,
-            frame=kit.name,
+            name=kit.name,
             key=kit.key,
             proved=kit.proved,
             imports=_merged(module.imports for module in modules),

@@ -70,17 +70,23 @@ def shapes(macro, settings, judged, folder):
     return found
 
 
-def opens(macro):
-    """Facts of all parts, and the volumes of joints and frame, as the macro leaves them."""
-    document = opened(macro)
+def opens(macros):
+    """Facts of all parts, and the volumes of joints and frame, as each macro leaves them."""
+    return [facts_of(opened(macro)) for macro in macros]
+
+
+def facts_of(document):
+    (first, *_) = document.Frame.Group
+    counts = [getattr(first, n) for n in ("Rows", "Columns") if n in first.PropertiesList]
     return {
+        "counts": counts,
         "valid": validity(document),
         "parts": {n: facts(obj) for n, obj in parts_of(document).items()},
         "wholes": {o.Name: Part.getShape(o).Volume for o in document.findObjects("App::Part")},
     }
 
 
-def assembly(macro, wider):
+def assembly(macro, wider, rows, columns):
     document = opened(macro)
     found = {
         "types": {obj.TypeId for obj in document.Joint.Group + document.Frame.Group},
@@ -90,13 +96,19 @@ def assembly(macro, wider):
         "joint_volume": Part.getShape(document.Joint).Volume,
         "frame_volume": Part.getShape(document.Frame).Volume,
     }
+    for alias, count in (("rows", rows), ("columns", columns)):
+        document.Parameters.set(alias, f"={count}")
     set_all(document, {"edge_length": wider})
     found["types"] = sorted(found["types"])
     found["frame"] = [
         [obj.LinkedObject.Name, *place.toMatrix().A]
         for obj in document.Frame.Group
-        for place in obj.PlacementList
+        for n, place in enumerate(obj.PlacementList)
+        if obj.isElementVisible(str(n))
     ]
+    document.Parameters.set("rows", "=0")
+    document.recompute()
+    found["none"] = document.Frame.Group[0].getStatusString()
     return found
 
 

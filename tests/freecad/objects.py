@@ -10,6 +10,9 @@ PLACES = {}
 #: Whether shapes are sound, as far as they were judged.
 JUDGED = {}
 
+#: What an attached object stands on: FreeCAD 1.0 has another name for it.
+SUPPORT = "Support" if App.Version()[0] == "0" else "AttachmentSupport"
+
 KINDS = ("basic", "one_sided", "two_sided", "connector", "half", "peg", "tube")
 
 
@@ -82,7 +85,8 @@ def edit():
     box = doc.addObject("Part::Box", "Box")
     box.Placement.Base = App.Vector(0, 0, 50)
     doc.recompute()
-    half.MapMode, half.Support = "ObjectXY", [(box, "")]
+    half.MapMode = "ObjectXY"
+    setattr(half, SUPPORT, [(box, "")])
     doc.recompute()
     own = second.Shape.Volume
     found = {
@@ -147,7 +151,7 @@ def old():
     doc.Half.ScadgenVersion = 0
     doc.Peg.removeProperty("BomName")
     doc.Peg.ScadgenVersion = 99
-    doc.Kit.Data = doc.Kit.Data.replace('"version": 4', '"version": 7', 1)
+    doc.Kit.Data = doc.Kit.Data.replace('"version": 5', '"version": 7', 1)
     doc.saveAs(saved("old"))
     App.closeDocument(doc.Name)
     doc = App.openDocument(saved("old"))
@@ -227,7 +231,54 @@ def export():
     return found
 
 
-STEPS = (make, edit, refuse, old, bare, restore, export)
+def other():
+    """A kit of several kinds of joints in cells, and one of a frame that is as it is."""
+    from freecad.scadgen import document
+    from freecad.scadgen.kit_object import data_of
+
+    found = {}
+    for name in ("cells", "drawn"):
+        doc = App.newDocument(name)
+        kit = document.add_kit(doc, PLACES[name].read_text())
+        data = data_of(kit)
+        for part in data.parts:
+            document.add_part(kit, part)
+        for joint in data.joints:
+            document.add_joint(kit, joint["name"])
+        frame = document.add_frame(kit)
+        doc.recompute()
+        found[name] = {
+            "volumes": volumes(doc),
+            "invalid": states(doc),
+            "labels": [o.Label for o in doc.Objects if o.TypeId == "Part::FeaturePython"],
+            "joints": {o.Joint: placed_of(o) for o in doc.Objects if is_joint(o)},
+            "frame": placed_of(frame),
+            "counts": [n for n in ("Rows", "Columns") if n in kit.PropertiesList],
+            "of_frame": [n for n in ("Rows", "Columns") if n in frame.PropertiesList],
+        }
+        if name == "cells":
+            kit.Rows, kit.Columns = 3, 2
+            doc.recompute()
+            found[name]["more"] = [placed_of(frame), kit.Pieces]
+        doc.saveAs(saved(name))
+    return found
+
+
+def is_joint(obj):
+    return getattr(obj, "Layout", "") == "joint"
+
+
+def placed_of(assembly):
+    """Part, and matrix row by row, of each piece that is shown."""
+    return [
+        [link.LinkedObject.Kind, *place.toMatrix().A]
+        for link in assembly.Group
+        for n, place in enumerate(link.PlacementList)
+        if link.isElementVisible(str(n))
+    ]
+
+
+STEPS = (make, edit, refuse, old, other, bare, restore, export)
 
 
 def main(steps, **given):

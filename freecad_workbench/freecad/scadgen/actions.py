@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,16 +13,18 @@ from PySide import QtGui
 
 from freecad.scadgen import document
 from freecad.scadgen.affine import read_kit
-from freecad.scadgen.names import KINDS
+from freecad.scadgen.kit_object import data_of
+from freecad.scadgen.names import icon_of, joint_label, label_of
 from freecad.scadgen.panels.check import CheckPanel
+from freecad.scadgen.panels.choose import Choice, ChoosePanel
 from freecad.scadgen.panels.explode import ExplodePanel
 from freecad.scadgen.panels.export import ExportPanel
 from freecad.scadgen.panels.new_kit import NewKitPanel, add_to_document
 
 __all__ = [
     "add_frame",
-    "add_joint",
-    "add_part",
+    "add_joints",
+    "add_parts",
     "always",
     "check",
     "explode",
@@ -84,32 +87,48 @@ def open_kit() -> None:
         add_to_document(Path(path).read_text(encoding="utf-8"), "joint")
 
 
-def _add(words: str, make: Callable[[Any], Any]) -> None:
-    doc = App.ActiveDocument
-    with document.one_step(doc, words):
-        made = make(_kit())
+def _add(kit: Any, words: str, make: Iterable[Callable[[], Any]]) -> None:
+    """Add something of a kit in one step of undo, and select it."""
+    with document.one_step(kit.Document, words):
+        made = [make_one() for make_one in make]
     Gui.Selection.clearSelection()
-    Gui.Selection.addSelection(made)
+    for obj in made:
+        Gui.Selection.addSelection(obj)
     Gui.SendMsgToActiveView("ViewFit")
 
 
-def add_part(kind: str) -> Callable[[], None]:
-    """Give what adds a part of a kind."""
+def add_parts() -> None:
+    """Ask which parts to add."""
+    kit, title = _kit(), translate("Scadgen", "Parts")
+    choices = [
+        Choice(name, label_of(part), icon_of(part)) for name, part in data_of(kit).parts.items()
+    ]
 
-    def act() -> None:
-        _add(translate("Scadgen", KINDS[kind]), lambda kit: document.add_part(kit, kind))
+    def act(names: Iterable[str]) -> None:
+        _add(kit, title, [partial(document.add_part, kit, name) for name in names])
 
-    return act
+    ChoosePanel(title, choices, act).present()
 
 
-def add_joint() -> None:
-    """Add an assembled joint."""
-    _add(translate("Scadgen", "Joint"), document.add_joint)
+def add_joints() -> None:
+    """Add an assembled joint; ask of which kind if there are several."""
+    kit, title = _kit(), translate("Scadgen", "Joint")
+    names = [joint["name"] for joint in data_of(kit).joints]
+
+    def act(names: Iterable[str]) -> None:
+        _add(kit, title, [partial(document.add_joint, kit, name) for name in names])
+
+    if len(names) == 1:
+        act(names)
+    else:
+        choices = [Choice(name, joint_label(name), "joint") for name in names]
+        ChoosePanel(title, choices, act).present()
 
 
 def add_frame() -> None:
     """Add the assembled frame."""
-    _add(translate("Scadgen", "Frame"), document.add_frame)
+    kit = _kit()
+    _add(kit, translate("Scadgen", "Frame"), [partial(document.add_frame, kit)])
 
 
 def explode() -> None:

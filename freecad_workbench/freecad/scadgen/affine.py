@@ -8,19 +8,19 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from freecad.scadgen.cells import laid
 from freecad.scadgen.faces import Face, Point, Triangle, edges_of, faces
-from freecad.scadgen.layout import LAYOUTS
 from freecad.scadgen.sense import nonsense
 
 __all__ = ["KitData", "KitError", "Solid", "parse_kit", "read_kit"]
 
 #: Format and version of ``kit.json`` that is read here.
-_FORMAT, _VERSION = "scadgen-kit", 4
+_FORMAT, _VERSION = "scadgen-kit", 5
 
 #: What rounding of decimal input may take a value past its bound, in mm.
 _SLACK = 1e-9
@@ -31,35 +31,39 @@ class KitError(ValueError):
 
 
 class Solid:
-    """A closed polyhedron whose vertices are linear in the live parameters.
+    """A part: a closed polyhedron whose vertices are linear in the live parameters.
 
     Parameters
     ----------
     name
         The part's name.
-    factors
-        For each live parameter that moves a vertex, the factors in x, y, z of all vertices.
-    triangles
-        Vertices of each triangle, counter-clockwise from outside.
-    facets
-        One number a triangle; those with the same number stay in one plane.
+    entry
+        What ``kit.json`` says of it: for each live parameter that moves a vertex the factors in
+        x, y, z of all vertices (``points``), the vertices of each ``triangle``, counter-clockwise
+        from outside, and one number a triangle (``facets``), the same for those that stay in one
+        plane; its ``role``, and what it ``ends`` in.
     values
         Live parameters at which the solid is sound, in mm.
     """
 
-    def __init__(
-        self,
-        name: str,
-        factors: Mapping[str, Sequence[Sequence[float]]],
-        triangles: Iterable[Sequence[int]],
-        facets: Iterable[int],
-        values: Mapping[str, float],
-    ) -> None:
+    def __init__(self, name: str, entry: Mapping[str, Any], values: Mapping[str, float]) -> None:
         self.name = name
-        self.triangles: list[Triangle] = [(a, b, c) for a, b, c in triangles]
-        self.facets = list(facets)
-        self._factors = {p: [f for row in rows for f in row] for p, rows in factors.items()}
+        self.role: str = entry["role"]
+        self.ends: list[dict[str, Any]] = entry["ends"]
+        self.triangles: list[Triangle] = [(a, b, c) for a, b, c in entry["triangles"]]
+        self.facets: list[int] = [*entry["facets"]]
+        self._factors = {p: [f for row in rows for f in row] for p, rows in entry["points"].items()}
         self._values = dict(values)
+
+    @property
+    def keys(self) -> int:
+        """How many of its ends are those of a key."""
+        return sum(end["slot"] is None for end in self.ends)
+
+    @property
+    def is_second(self) -> bool:
+        """Whether it is half B of a connector whose halves differ."""
+        return self.role == "half" and bool(self.ends[0]["over"])
 
     @property
     def parameters(self) -> tuple[str, ...]:
@@ -90,7 +94,7 @@ class KitData:
     """A kit: what ``kit.json`` holds, with its solids ready to be evaluated."""
 
     def __init__(self, document: Mapping[str, Any]) -> None:
-        self.frame: str = document["frame"]
+        self.name: str = document["name"]
         self.key: str = document["key"]
         self.detail: str = document["detail"]
         self.rows: int = document["rows"]
@@ -98,26 +102,60 @@ class KitData:
         self.command: str = document["command"]
         self.values: dict[str, float] = {n: float(v) for n, v in document["values"].items()}
         self.joints: list[dict[str, Any]] = document["joints"]
-        self.is_grid: bool = "graph" not in document
+        self.rim: str = document["rim"]
+        self.tiling: dict[str, Any] | None = document.get("tiling")
+        self.frame: dict[str, Any] | None = document.get("frame")
+        self.has_refused: bool = bool(document["refused"])
+        self._cells: dict[str, Any] | None = document.get("cells")
         self._placements: list[dict[str, Any]] = document.get("placements", [])
-        self.bill: dict[str, int] = document["bill"]
         self.ranges: list[dict[str, Any]] = document["ranges"]
         self.parts = {
             name: _solid(name, entry, self.values) for name, entry in document["parts"].items()
         }
 
     @property
-    def joint(self) -> list[dict[str, Any]]:
-        """The pieces of the first kind of joint, assembled; positions in edge lengths."""
-        pieces: list[dict[str, Any]] = self.joints[0]["pieces"]
-        return pieces
+    def is_regular(self) -> bool:
+        """Whether all joints are one regular joint, whose weave can be chosen."""
+        return "basic" in self.parts
 
-    @cached_property
-    def placements(self) -> list[dict[str, Any]]:
-        """Where every part of the frame stands, as in `joint`."""
-        if not self.is_grid:
+    @property
+    def has_cells(self) -> bool:
+        """Whether its rows and columns can be set."""
+        return self._cells is not None
+
+    @property
+    def frame_pieces(self) -> list[tuple[str, str]]:
+        """Role and part of whatever stands in the frame, at some rows and columns at least."""
+        places = self._placements if self._cells is None else self._cells["pieces"]
+        return list(dict.fromkeys((p["role"], p["part"]) for p in places))
+
+    def placements(self, rows: int, columns: int) -> list[dict[str, Any]]:
+        """Where every part of the frame stands, in edge lengths.
+
+        Parameters
+        ----------
+        rows, columns
+            Cells up and across; a frame without cells is as it is.
+        """
+        if self._cells is None:
             return self._placements
-        return LAYOUTS[self.frame](self.rows, self.columns, self.key)
+        return [*laid(self._cells, rows, columns)]
+
+    def pieces(self, joint: str) -> list[dict[str, Any]]:
+        """The pieces of a kind of joint, assembled, in edge lengths.
+
+        Raises
+        ------
+        KitError
+            There is no such kind.
+        """
+        for kind in self.joints:
+            if kind["name"] == joint:
+                found: list[dict[str, Any]] = kind["pieces"]
+                return found
+        known = ", ".join(repr(kind["name"]) for kind in self.joints)
+        msg = f"joint = {joint!r}: must be one of {known}"
+        raise KitError(msg)
 
     def limits(self, name: str, values: Mapping[str, float]) -> tuple[float, float]:
         """Lowest and highest value of a live parameter at the others' values, in mm."""
@@ -179,9 +217,12 @@ def parse_kit(text: str) -> KitData:
         msg = f"not a kit: format is not {_FORMAT}; choose the kit.json that scadgen kit wrote"
         raise KitError(msg)
     if document.get("version") != _VERSION:
+        command = document.get("command")
+        known = isinstance(command, str) and command and command.isprintable()
+        how = f": {command}" if known else " with scadgen kit"
         msg = (
-            f"kit version {document.get('version')!r}: this reads version {_VERSION}; "
-            "update it, or make the kit again with the scadgen that belongs to it"
+            f"kit version {document.get('version')!r:.60}: this reads version {_VERSION}; "
+            f"make it again{how}"
         )
         raise KitError(msg)
     try:
@@ -223,7 +264,7 @@ def _solid(name: str, entry: Mapping[str, Any], values: Mapping[str, float]) -> 
     ValueError
         They are not finite numbers of the right shape, or not a closed surface.
     """
-    solid = Solid(name, entry["points"], entry["triangles"], entry["facets"], values)
+    solid = Solid(name, entry, values)
     if not {*solid.parameters} <= {*values}:
         msg = f"part {name}: moved by a parameter that the kit lacks"
         raise ValueError(msg)

@@ -8,10 +8,17 @@ import FreeCAD as App
 
 from freecad.scadgen.affine import KitError
 from freecad.scadgen.kit_object import data_of
-from freecad.scadgen.layout import LAYOUTS, MOST_CELLS
-from freecad.scadgen.names import COLOURS
-from freecad.scadgen.properties import DERIVED, HIDDEN, Scripted, add
-from freecad.scadgen.shape import placed
+from freecad.scadgen.names import CELLS, COLOURS
+from freecad.scadgen.properties import (
+    DERIVED,
+    FIXED,
+    HIDDEN,
+    Scripted,
+    add,
+    cell_properties,
+    frame_of,
+)
+from freecad.scadgen.shape import placed, put
 
 __all__ = ["AssemblyObject", "parts_of", "placements_of"]
 
@@ -22,19 +29,22 @@ _APART = (0.0, 0.0, 100.0, 0.5)
 
 
 class AssemblyObject(Scripted):
-    """A joint or a frame, with one array of links for each role in it."""
+    """A joint or a frame, with one array of links for each part and role in it."""
 
     kind = "assembly"
 
-    def __init__(self, obj: Any, kit: Any, layout: str) -> None:
+    def __init__(self, obj: Any, kit: Any, joint: str | None) -> None:
         super().__init__(obj)
-        obj.Kit, obj.Layout = kit, layout
-        if layout == "frame":
-            for name in ("Rows", "Columns"):
-                obj.setExpression(name, f"{kit.Name}.{name}")
+        obj.Kit = kit
+        if joint is not None:
+            obj.Layout, obj.Joint = "joint", joint
         else:
-            for name in ("Rows", "Columns"):
-                obj.setEditorMode(name, 2)
+            obj.Layout = "frame"
+            obj.setEditorMode("Joint", 2)
+            if data_of(kit).has_cells:
+                cell_properties(obj, "Assembly", kit.Rows, kit.Columns)
+                for name in CELLS:
+                    obj.setExpression(name, f"{kit.Name}.{name}")
 
     def set_up(self, obj: Any) -> None:
         """Add the properties that are missing, with their defaults."""
@@ -45,12 +55,8 @@ class AssemblyObject(Scripted):
         add(obj, "App::PropertyLink", "Kit", "Assembly", text, 0)
         text = QT_TRANSLATE_NOOP("App::Property", "A joint, or a frame")
         add(obj, "App::PropertyString", "Layout", "Assembly", text, HIDDEN, "joint")
-        for name, text in (
-            ("Rows", QT_TRANSLATE_NOOP("App::Property", "Cells of the frame up")),
-            ("Columns", QT_TRANSLATE_NOOP("App::Property", "Cells of the frame across")),
-        ):
-            limits = (2, 1, MOST_CELLS, 1)
-            add(obj, "App::PropertyIntegerConstraint", name, "Assembly", text, 0, limits)
+        text = QT_TRANSLATE_NOOP("App::Property", "Which kind of joint")
+        add(obj, "App::PropertyString", "Joint", "Assembly", text, FIXED)
         text = QT_TRANSLATE_NOOP("App::Property", "How far it is pulled apart, in sides")
         add(obj, "App::PropertyFloatConstraint", "Explode", "Assembly", text, 0, _APART)
         text = QT_TRANSLATE_NOOP("App::Property", "Number of pieces")
@@ -62,35 +68,34 @@ class AssemblyObject(Scripted):
         Raises
         ------
         KitError
-            The kit is gone.
+            The kit is gone, or broken.
         """
         if obj.Kit is None:
             msg = f"{obj.Label}: its kit is gone; undo, or set the property Kit"
             raise KitError(msg)
         found = placements_of(obj)
         for link in obj.Group:
-            places = found.get(getattr(link, "Role", ""))
-            if places:
-                link.ElementCount = len(places)
-                link.PlacementList = places
+            if role := getattr(link, "Role", ""):
+                put(link, found.get((role, link.Piece), []))
                 link.purgeTouched()
         obj.Pieces = sum(len(places) for places in found.values())
 
 
 def _layout(obj: Any) -> list[dict[str, Any]]:
     """All placements of an assembly."""
-    if obj.Layout == "joint":
-        return data_of(obj.Kit).joint
-    return LAYOUTS[obj.Kit.Frame](obj.Rows, obj.Columns, obj.Kit.Key)
+    data = data_of(obj.Kit)
+    return data.pieces(obj.Joint) if obj.Layout == "joint" else frame_of(obj, data)
 
 
-def parts_of(obj: Any) -> dict[str, str]:
-    """The part of each role that there is in an assembly."""
-    return {p["role"]: p["part"] for p in _layout(obj)}
+def parts_of(obj: Any) -> list[tuple[str, str]]:
+    """Role and part of whatever there is in an assembly."""
+    if obj.Layout == "frame":
+        return data_of(obj.Kit).frame_pieces
+    return list(dict.fromkeys((p["role"], p["part"]) for p in _layout(obj)))
 
 
-def placements_of(obj: Any) -> dict[str, list[Any]]:
-    """Where the pieces of each role stand, in the assembly's own coordinates.
+def placements_of(obj: Any) -> dict[tuple[str, str], list[Any]]:
+    """Where the pieces of each role and part stand, in the assembly's own coordinates.
 
     Pulled apart, vertices draw away from each other by two explosions an edge, and each
     piece moves along its edge; halves by half of it, and to their own sides.
@@ -99,18 +104,19 @@ def placements_of(obj: Any) -> dict[str, list[Any]]:
     apart = obj.Explode * side
     pitch = edge + 2 * apart
     ways = _ways(obj)
-    found: dict[str, list[Any]] = {}
+    found: dict[tuple[str, str], list[Any]] = {}
     for p in _layout(obj):
         place = placed(p, pitch)
         place.Base += place.Rotation.multVec(ways[p["role"]] * apart)
-        found.setdefault(p["role"], []).append(place)
+        found.setdefault((p["role"], p["part"]), []).append(place)
     return found
 
 
 def _ways(obj: Any) -> dict[str, Any]:
     """How far a piece of each role moves along its edge and to its side, in explosions."""
     data = data_of(obj.Kit)
-    points = data.parts["half"].points(data.values)
+    half = next(p["part"] for p in _layout(obj) if p["role"] == "half_a")
+    points = data.parts[half].points(data.values)
     left = 0.5 if sum(y for _, y, _ in points) > 0 else -0.5
     ways = dict.fromkeys(COLOURS, App.Vector(1, 0, 0))
     ways["half_a"] = ways["half_b"] = App.Vector(0.5, left, 0)

@@ -18,12 +18,13 @@ from typing import Any
 
 import FreeCAD as App
 
-from freecad.scadgen.affine import KitError, parse_kit
+from freecad.scadgen.affine import parse_kit
 from freecad.scadgen.assembly_object import AssemblyObject, parts_of
-from freecad.scadgen.kit_object import KitObject
-from freecad.scadgen.names import FRAMES, KINDS, ROLE_LABELS
+from freecad.scadgen.kit_object import KitObject, data_of
+from freecad.scadgen.names import ROLE_LABELS, joint_label, label_of
 from freecad.scadgen.part_object import PartObject, follows
 from freecad.scadgen.preferences import density
+from freecad.scadgen.properties import HIDDEN, add
 
 __all__ = [
     "add_frame",
@@ -100,22 +101,12 @@ def add_kit(doc: Any, text: str) -> Any:
     Raises
     ------
     KitError
-        The text is broken, of another version, or of a frame without rows and columns.
-        Nothing is added.
+        The text is broken, or of another version.  Nothing is added.
     """
-    data = parse_kit(text)
-    frame = data.frame
-    if not data.is_grid:
-        msg = (
-            f"frame {frame}: has no rows and columns to set; run the kit's macro, "
-            f"{frame}.FCMacro, which opens it as it is"
-        )
-        raise KitError(msg)
+    name = parse_kit(text).name
     kit = doc.addObject("App::FeaturePython", "Kit")
     KitObject(kit, text, density())
-    kit.Label = translate("Scadgen", "Kit: {}").format(
-        translate("Scadgen", FRAMES.get(frame, frame))
-    )
+    kit.Label = translate("Scadgen", "Kit: {}").format(name)
     _show(kit)
     return kit
 
@@ -128,34 +119,44 @@ def add_part(kit: Any, kind: str) -> Any:
     kit
         The kit object.
     kind
-        Which part: ``basic``, ``half``, ...
+        Which part: ``basic``, ``half``, ``edge_1``, ...
     """
-    part = kit.Document.addObject("Part::FeaturePython", KINDS[kind].title().replace(" ", ""))
+    name = "".join(word[:1].upper() + word[1:] for word in kind.split("_"))
+    part = kit.Document.addObject("Part::FeaturePython", name)
     PartObject(part, kit, kind)
-    part.Label = translate("Scadgen", KINDS[kind])
+    part.Label = label_of(data_of(kit).parts[kind])
     _show(part)
     return part
 
 
-def add_joint(kit: Any) -> Any:
-    """Add one assembled joint of a kit."""
-    return _assembly(kit, "joint", "Joint", translate("Scadgen", "Joint"))
+def add_joint(kit: Any, joint: str | None = None) -> Any:
+    """Add one assembled joint of a kit.
+
+    Parameters
+    ----------
+    kit
+        The kit object.
+    joint
+        Name of its kind; the kit's first unless given.
+    """
+    joint = data_of(kit).joints[0]["name"] if joint is None else joint
+    return _assembly(kit, joint, f"Joint{joint}", joint_label(joint))
 
 
 def add_frame(kit: Any) -> Any:
-    """Add the assembled frame of a kit; rows and columns are its properties."""
-    return _assembly(kit, "frame", "Frame", translate("Scadgen", "Frame"))
+    """Add the assembled frame of a kit; rows and columns, if it has them, are its properties."""
+    return _assembly(kit, None, "Frame", translate("Scadgen", "Frame"))
 
 
-def _assembly(kit: Any, layout: str, name: str, label: str) -> Any:
+def _assembly(kit: Any, joint: str | None, name: str, label: str) -> Any:
     doc = kit.Document
     assembly = doc.addObject("App::GeometryPython", name)
-    AssemblyObject(assembly, kit, layout)
+    AssemblyObject(assembly, kit, joint)
     assembly.Label = label
-    for role, kind in parts_of(assembly).items():
+    for role, kind in parts_of(assembly):
         link = doc.addObject("App::Link", f"{name}_{role}")
-        link.addProperty("App::PropertyString", "Role", "Scadgen", "", 5)
-        link.Role = role
+        for own, value in (("Role", role), ("Piece", kind)):
+            add(link, "App::PropertyString", own, "Scadgen", "", HIDDEN, value)
         link.Label = f"{assembly.Label}: {translate('Scadgen', ROLE_LABELS[role])}"
         link.LinkedObject = _part_for(kit, kind)
         link.ShowElement = False

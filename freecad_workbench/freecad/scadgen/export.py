@@ -108,10 +108,10 @@ def whole_files(kit: Any, kind: str, bed: tuple[float, float]) -> dict[str, byte
     files = {"bill.csv": _bill(bodies, kit)}
     if kind == "3mf":
         for n, plate in enumerate(plates(bodies, bed), 1):
-            files[f"{data.frame}_plate_{n}.3mf"] = threemf(plate)
+            files[f"{data.name}_plate_{n}.3mf"] = threemf(plate)
         return files
     for body in bodies:
-        name = f"{data.frame}_{body.name}_x{len(body.places)}.{kind}"
+        name = f"{data.name}_{body.name}_x{len(body.places)}.{kind}"
         if kind == "stl":
             files[name] = stl([body._replace(places=[still])])
         else:
@@ -151,7 +151,7 @@ def _pieces(obj: Any) -> Placed:
     elif kind_of(obj) == "assembly":
         found = [piece for link in obj.Group for piece in _pieces(link)]
     elif obj.isDerivedFrom("App::Link") and kind_of(obj.LinkedObject) == "part":
-        places = obj.PlacementList if obj.ElementCount else [App.Placement()]
+        places = _shown(obj) if obj.ElementCount else [App.Placement()]
         found = [(obj.LinkedObject, _global(obj).multiply(place)) for place in places]
     else:
         msg = f"{obj.Label}: not a part, joint or frame of a kit; select one, or the whole kit"
@@ -161,6 +161,11 @@ def _pieces(obj: Any) -> Placed:
             msg = f"{part.Label}: not sound ({part.getStatusString()}); put it right first"
             raise KitError(msg)
     return found
+
+
+def _shown(link: Any) -> list[Any]:
+    """Where a link shows what it links to."""
+    return [p for n, p in enumerate(link.PlacementList) if link.isElementVisible(str(n))]
 
 
 def _global(obj: Any) -> Any:

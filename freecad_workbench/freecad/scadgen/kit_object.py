@@ -10,14 +10,14 @@ import FreeCAD as App
 
 from freecad.scadgen.affine import KitData, parse_kit
 from freecad.scadgen.figures import mass, volume
-from freecad.scadgen.layout import LAYOUTS, MOST_CELLS
-from freecad.scadgen.names import KINDS
 from freecad.scadgen.properties import (
     DERIVED,
     FIXED,
     HIDDEN,
     Scripted,
     add,
+    cell_properties,
+    frame_of,
     length_properties,
     refuse,
     values_of,
@@ -44,18 +44,12 @@ class KitObject(Scripted):
         text = QT_TRANSLATE_NOOP("App::Property", "The text of kit.json")
         add(obj, "App::PropertyString", "Data", "Scadgen", text, HIDDEN)
         for name, text in (
-            ("Frame", QT_TRANSLATE_NOOP("App::Property", "The grid")),
+            ("Frame", QT_TRANSLATE_NOOP("App::Property", "What the kit's files are called")),
             ("Key", QT_TRANSLATE_NOOP("App::Property", "Pegs fixed to tubes, or loose")),
             ("Detail", QT_TRANSLATE_NOOP("App::Property", "How finely walls are cut up")),
             ("Command", QT_TRANSLATE_NOOP("App::Property", "The command that made the kit")),
         ):
             add(obj, "App::PropertyString", name, "Kit", text, FIXED)
-        for name, text in (
-            ("Rows", QT_TRANSLATE_NOOP("App::Property", "Cells of the frame up")),
-            ("Columns", QT_TRANSLATE_NOOP("App::Property", "Cells of the frame across")),
-        ):
-            limits = (2, 1, MOST_CELLS, 1)
-            add(obj, "App::PropertyIntegerConstraint", name, "Frame", text, 0, limits)
         text = QT_TRANSLATE_NOOP("App::Property", "Density of the material, in g/cm3")
         add(obj, "App::PropertyFloat", "Density", "Material", text, 0, 1.24)
         text = QT_TRANSLATE_NOOP("App::Property", "Mass of all pieces printed solid, in g")
@@ -67,15 +61,14 @@ class KitObject(Scripted):
         text = QT_TRANSLATE_NOOP("App::Property", "Number of pieces of each part")
         add(obj, "App::PropertyStringList", "Bill", "Frame", text, DERIVED)
         if obj.Data:
-            length_properties(obj, data_of(obj).values)
+            _own_properties(obj, data_of(obj))
 
     def fill(self, obj: Any) -> None:
         """Take over what the text says."""
         data = data_of(obj)
-        length_properties(obj, data.values)
-        obj.Frame, obj.Key, obj.Detail = data.frame, data.key, data.detail
+        _own_properties(obj, data)
+        obj.Frame, obj.Key, obj.Detail = data.name, data.key, data.detail
         obj.Command = data.command
-        obj.Rows, obj.Columns = data.rows, data.columns
 
     def parameters(self, obj: Any) -> tuple[str, ...]:
         """The live parameters of the kit."""
@@ -102,6 +95,13 @@ class KitObject(Scripted):
         obj.Mass = round(mass(total, obj.Density), 3)
 
 
+def _own_properties(obj: Any, data: KitData) -> None:
+    """Add the properties that this kit has and others may not have."""
+    length_properties(obj, data.values)
+    if data.has_cells:
+        cell_properties(obj, "Frame", data.rows, data.columns)
+
+
 @lru_cache(maxsize=8)
 def _parsed(text: str) -> KitData:
     return parse_kit(text)
@@ -120,6 +120,6 @@ def data_of(kit: Any) -> KitData:
 
 def bill_of(kit: Any) -> dict[str, int]:
     """Number of pieces of each part that the frame needs, at its rows and columns."""
-    placements = LAYOUTS[kit.Frame](kit.Rows, kit.Columns, kit.Key)
-    counts = Counter(p["part"] for p in placements)
-    return {kind: counts[kind] for kind in KINDS if counts[kind]}
+    data = data_of(kit)
+    counts = Counter(p["part"] for p in frame_of(kit, data))
+    return {part: counts[part] for part in data.parts if counts[part]}

@@ -16,14 +16,18 @@ from typing import Any
 import FreeCAD
 
 from freecad.scadgen.affine import KitData, parse_kit
-from freecad.scadgen.names import COLOURS, LENGTHS, label_of, property_of, role_alone
+from freecad.scadgen.cells import MOST_CELLS
+from freecad.scadgen.names import CELLS, COLOURS, LENGTHS, label_of, property_of, role_alone
 from freecad.scadgen.refusal import refuse
-from freecad.scadgen.shape import make_shape, placed
+from freecad.scadgen.shape import make_shape, placed, put
 
 __all__ = ["open_kit"]
 
 #: The property by which the macro finds its objects again.
 _MARK = "ScadgenMacro"
+
+#: Cells of a frame whose rows and columns can be set: properties and aliases.
+_COUNTS = {"Rows": "rows", "Columns": "columns"}
 
 #: Room between things that stand side by side, in mm.
 _ROOM = 10.0
@@ -37,7 +41,7 @@ class PartOfKit:
 
     def __init__(self, obj: Any, kit: KitData) -> None:
         self._kit = kit
-        self._solid = kit.parts[getattr(obj, _MARK)]
+        self.solid = kit.parts[getattr(obj, _MARK)]
         self._made: list[float] | None = None
         _attach(self, obj)
 
@@ -52,9 +56,9 @@ class PartOfKit:
         values = {name: getattr(obj, property_of(name)).Value for name in self._kit.values}
         if wrong := self._kit.check(values):
             refuse("; ".join(wrong))
-        moving = [values[name] for name in self._solid.parameters]
+        moving = [values[name] for name in self.solid.parameters]
         if moving != self._made:
-            obj.Shape = make_shape(self._solid, values)
+            obj.Shape = make_shape(self.solid, values)
             self._made = moving
 
 
@@ -62,15 +66,26 @@ class PiecesOfFrame:
     """All pieces of a frame of one part and role: one link with many places."""
 
     def __init__(self, obj: Any, kit: KitData) -> None:
-        role, _, part = getattr(obj, _MARK).partition(" ")
-        self._places = [p for p in kit.placements if (p["role"], p["part"]) == (role, part)]
-        obj.ElementCount = len(self._places)
+        self._kit = kit
         _attach(self, obj)
 
     def execute(self, obj: Any) -> None:
-        """Put the pieces where they stand at this edge length."""
+        """Put the pieces where they stand at these rows and columns and this edge length.
+
+        Raises
+        ------
+        ValueError
+            There cannot be so many cells.
+        """
+        role, _, part = getattr(obj, _MARK).partition(" ")
+        counts = [getattr(obj, name, 0) for name in _COUNTS]
+        for name, count in zip(_COUNTS.values(), counts):
+            if self._kit.has_cells and not 1 <= count <= MOST_CELLS:
+                refuse(f"{name} = {count}: must be a whole number from 1 to {MOST_CELLS}")
         edge_length = obj.EdgeLength.Value
-        obj.PlacementList = [placed(place, edge_length) for place in self._places]
+        places = self._kit.placements(*counts)
+        own = [p for p in places if (p["role"], p["part"]) == (role, part)]
+        put(obj, [placed(place, edge_length) for place in own])
 
 
 def open_kit(text: str) -> Any:
@@ -111,7 +126,7 @@ def _marked(document: Any, mark: str) -> bool:
 
 def _new(kit: KitData, mark: str) -> Any:
     """A document of a kit."""
-    document = FreeCAD.newDocument(f"{kit.frame}_{kit.key}")
+    document = FreeCAD.newDocument(f"{kit.name}_{kit.key}")
     sheet = _sheet(document, kit)
     _add(sheet, "App::PropertyString", _MARK, "What the macro knows it by", mark)
     document.recompute()
@@ -122,8 +137,11 @@ def _new(kit: KitData, mark: str) -> Any:
     _in_a_row(parts.values(), -reach - _ROOM)
     for number, joint in enumerate(kit.joints):
         _joint(document, kit, joint, parts, number * (2 * reach + _ROOM))
-    low = min(place["at"][1] for place in kit.placements) * kit.values["edge_length"]
-    _frame(document, kit, parts, sheet, 2 * reach + _ROOM - low)
+    places = kit.placements(kit.rows, kit.columns)
+    low = min(place["at"][1] for place in places) * kit.values["edge_length"]
+    group = _frame(document, kit, parts, sheet)
+    group.Placement.Base = FreeCAD.Vector(0, 2 * reach + _ROOM - low, 0)
+    group.Visibility = len(places) <= _SHOWN
     return document
 
 
@@ -139,7 +157,7 @@ def _revive(document: Any, kit: KitData) -> None:
 
 
 def _sheet(document: Any, kit: KitData) -> Any:
-    """The live parameters, one a row: an alias for each value, and what it may be."""
+    """The live parameters and the cells, one a row: an alias for each value, and its bounds."""
     sheet = document.addObject("Spreadsheet::Sheet", "Parameters")
     titles = ("Parameter", "Value", "From", "To", "Meaning", "Why")
     for column, title in zip("ABCDEF", titles):
@@ -155,6 +173,12 @@ def _sheet(document: Any, kit: KitData) -> Any:
             sheet.set(f"{column}{row}", f"'{cell}")
         sheet.set(f"B{row}", f"={value!r} mm")
         sheet.setAlias(f"B{row}", name)
+    counts = _COUNTS.items() if kit.has_cells else ()
+    for row, (own, alias) in enumerate(counts, len(kit.values) + 2):
+        for column, cell in zip("ACDE", (alias, "1", MOST_CELLS, CELLS[own])):
+            sheet.set(f"{column}{row}", f"'{cell}")
+        sheet.set(f"B{row}", f"={getattr(kit, alias)}")
+        sheet.setAlias(f"B{row}", alias)
     for column, width in zip("ABCDEF", (110, 90, 190, 260, 290, 400)):
         sheet.setColumnWidth(column, width)
     return sheet
@@ -175,7 +199,7 @@ def _parts(document: Any, kit: KitData, sheet: Any) -> dict[str, Any]:
     parts = {}
     for name in kit.parts:
         obj = document.addObject("Part::FeaturePython", name)
-        obj.Label = label_of(name)
+        obj.Label = label_of(kit.parts[name])
         _add(obj, "App::PropertyString", _MARK, "The part of the kit", name)
         for parameter in kit.values:
             own = property_of(parameter)
@@ -214,11 +238,10 @@ def _joint(
         seen[role] += 1
 
 
-def _frame(document: Any, kit: KitData, parts: Mapping[str, Any], sheet: Any, y: float) -> None:
+def _frame(document: Any, kit: KitData, parts: Mapping[str, Any], sheet: Any) -> Any:
     """The whole frame: one link for each part and role, with as many places as pieces."""
     group = document.addObject("App::Part", "Frame")
-    group.Placement.Base = FreeCAD.Vector(0, y, 0)
-    for role, part in dict.fromkeys((p["role"], p["part"]) for p in kit.placements):
+    for role, part in kit.frame_pieces:
         link = document.addObject("App::LinkPython", f"frame_{role}")
         link.LinkedObject = parts[part]
         link.ShowElement = False
@@ -227,11 +250,14 @@ def _frame(document: Any, kit: KitData, parts: Mapping[str, Any], sheet: Any, y:
         )
         _add(link, "App::PropertyDistance", "EdgeLength", LENGTHS["edge_length"][1], 0.0)
         link.setExpression("EdgeLength", f"{sheet.Name}.edge_length")
+        for own, alias in _COUNTS.items() if kit.has_cells else ():
+            _add(link, "App::PropertyInteger", own, CELLS[own], getattr(kit, alias))
+            link.setExpression(own, f"{sheet.Name}.{alias}")
         _draw_as_usual(link)
         PiecesOfFrame(link, kit)
         group.addObject(link)
         _paint(link, role)
-    group.Visibility = len(kit.placements) <= _SHOWN
+    return group
 
 
 def _attach(proxy: Any, obj: Any) -> None:
@@ -270,7 +296,7 @@ def _show(document: Any) -> None:
         import FreeCADGui
 
         for obj in document.findObjects("Part::FeaturePython"):
-            obj.ViewObject.ShapeColor = _colour(role_alone(getattr(obj, _MARK)))
+            obj.ViewObject.ShapeColor = _colour(role_alone(obj.Proxy.solid))
             obj.ViewObject.DisplayMode = "Shaded"  # walls have more edges than one can see
             obj.ViewObject.Visibility = True  # what is linked to was hidden
         FreeCADGui.activeDocument().activeView().viewIsometric()

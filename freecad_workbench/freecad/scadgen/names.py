@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from FreeCAD import Qt
 
+from freecad.scadgen.affine import Solid
+
 __all__ = [
+    "CELLS",
     "COLOURS",
-    "FRAMES",
-    "KINDS",
     "LENGTHS",
     "ROLE_LABELS",
+    "icon_of",
+    "joint_label",
     "label_of",
     "property_of",
     "role_alone",
@@ -17,21 +20,20 @@ __all__ = [
 
 QT_TRANSLATE_NOOP = Qt.QT_TRANSLATE_NOOP
 
-#: Kinds of parts in the order of a kit, and what a person calls them.
-KINDS = {
+#: Edge elements of regular joints by how many of their ends are keys', and their names.
+_REGULAR = {
     "basic": QT_TRANSLATE_NOOP("Scadgen", "Basic element"),
     "one_sided": QT_TRANSLATE_NOOP("Scadgen", "One-sided element"),
     "two_sided": QT_TRANSLATE_NOOP("Scadgen", "Two-sided element"),
+}
+
+#: What a person calls a part, by what it is for.
+_LABELS = {
+    "element": QT_TRANSLATE_NOOP("Scadgen", "Edge element"),
     "connector": QT_TRANSLATE_NOOP("Scadgen", "Connector"),
     "half": QT_TRANSLATE_NOOP("Scadgen", "Half"),
     "peg": QT_TRANSLATE_NOOP("Scadgen", "Peg"),
     "tube": QT_TRANSLATE_NOOP("Scadgen", "Tube"),
-}
-
-#: The frames there are.
-FRAMES = {
-    "hexagonal": QT_TRANSLATE_NOOP("Scadgen", "Hexagons"),
-    "square": QT_TRANSLATE_NOOP("Scadgen", "Squares"),
 }
 
 #: Live parameters, all lengths: the property each is, and what it means.
@@ -50,6 +52,12 @@ LENGTHS = {
     ),
     "peg_chamfer": ("PegChamfer", QT_TRANSLATE_NOOP("App::Property", "Lead-in of the peg's tips")),
     "bore": ("Bore", QT_TRANSLATE_NOOP("App::Property", "Side of the square bore along all edges")),
+}
+
+#: Cells of a frame whose rows and columns can be set.
+CELLS = {
+    "Rows": QT_TRANSLATE_NOOP("App::Property", "Cells of the frame up"),
+    "Columns": QT_TRANSLATE_NOOP("App::Property", "Cells of the frame across"),
 }
 
 #: What a placed piece is to the viewer, and its colour: the same as in the kit's other files.
@@ -71,22 +79,20 @@ ROLE_LABELS = {
     "peg": QT_TRANSLATE_NOOP("Scadgen", "Pegs"),
 }
 
-#: Any edge element of a frame that has its own kinds of them.
-_EDGE = QT_TRANSLATE_NOOP("Scadgen", "Edge element")
-
-_ALONE = {
-    "edge": "row",
-    "basic": "row",
-    "tube": "row",
-    "connector": "cap",
-    "half": "half_a",
-    "peg": "peg",
-}
+#: The role whose colour a part alone has, by what it is for; elements with a key's end differ.
+_ALONE = {"element": "row", "connector": "cap", "half": "half_a", "peg": "peg", "tube": "row"}
 
 
-def role_alone(kind: str) -> str:
+def role_alone(part: Solid) -> str:
     """The role whose colour a part alone has."""
-    return _ALONE.get(kind, _ALONE.get(kind.partition("_")[0], "cross"))
+    if part.is_second:
+        return "half_b"
+    return "cross" if part.role == "element" and part.keys else _ALONE[part.role]
+
+
+def icon_of(part: Solid) -> str:
+    """The icon of a part."""
+    return [*_REGULAR][part.keys] if part.role == "element" else part.role
 
 
 def property_of(parameter: str) -> str:
@@ -94,9 +100,15 @@ def property_of(parameter: str) -> str:
     return LENGTHS[parameter][0]
 
 
-def label_of(kind: str) -> str:
-    """What a person calls a kind of part, in the language of FreeCAD."""
-    if kind in KINDS:
-        return str(Qt.translate("Scadgen", KINDS[kind]))
-    first, _, number = kind.partition("_")
-    return f"{Qt.translate('Scadgen', KINDS.get(first, _EDGE))} {number.replace('_', ' ')}"
+def joint_label(joint: str) -> str:
+    """What a person calls a kind of joint, in the language of FreeCAD."""
+    return f"{Qt.translate('Scadgen', 'Joint')} {joint}".strip()
+
+
+def label_of(part: Solid) -> str:
+    """What a person calls a part, in the language of FreeCAD."""
+    if part.name in _REGULAR:
+        return str(Qt.translate("Scadgen", _REGULAR[part.name]))
+    number = part.name.split("_")[1:2]
+    said = " ".join([Qt.translate("Scadgen", _LABELS[part.role]), *number])
+    return f"{said} ({Qt.translate('Scadgen', 'second shape')})" if part.is_second else said

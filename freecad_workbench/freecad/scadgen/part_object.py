@@ -10,7 +10,7 @@ import FreeCAD as App
 from freecad.scadgen.affine import KitData, KitError
 from freecad.scadgen.figures import mass
 from freecad.scadgen.kit_object import bill_of, data_of
-from freecad.scadgen.names import KINDS, property_of
+from freecad.scadgen.names import property_of
 from freecad.scadgen.properties import (
     DERIVED,
     HIDDEN,
@@ -38,7 +38,7 @@ class PartObject(Scripted):
         data = data_of(kit)
         obj.Kind = [*data.parts]
         obj.Kind = kind
-        obj.BomName = f"{data.frame} {kind}"
+        obj.BomName = f"{data.name} {kind}"
         length_properties(obj, values_of(kit, data))
         for parameter in data.values:
             follow(obj, parameter)
@@ -52,7 +52,7 @@ class PartObject(Scripted):
         text = QT_TRANSLATE_NOOP("App::Property", "The kit that the part belongs to")
         add(obj, "App::PropertyLink", "Kit", "Part", text, 0)
         text = QT_TRANSLATE_NOOP("App::Property", "Which part of the kit it is")
-        add(obj, "App::PropertyEnumeration", "Kind", "Part", text, 0, [*KINDS])
+        add(obj, "App::PropertyEnumeration", "Kind", "Part", text, 0)
         text = QT_TRANSLATE_NOOP("App::Property", "Name in a bill of materials")
         add(obj, "App::PropertyString", "BomName", "Part", text, 0)
         text = QT_TRANSLATE_NOOP("App::Property", "Pieces that the kit's frame needs")

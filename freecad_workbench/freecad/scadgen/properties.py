@@ -9,7 +9,8 @@ import FreeCAD as App
 
 from freecad.scadgen import refusal
 from freecad.scadgen.affine import KitData, KitError
-from freecad.scadgen.names import LENGTHS, property_of
+from freecad.scadgen.cells import MOST_CELLS
+from freecad.scadgen.names import CELLS, LENGTHS, property_of
 
 __all__ = [
     "DERIVED",
@@ -18,13 +19,15 @@ __all__ = [
     "HIDDEN",
     "Scripted",
     "add",
+    "cell_properties",
+    "frame_of",
     "length_properties",
     "refuse",
     "values_of",
 ]
 
 #: Version of our properties.  An object that has another is brought up to date when it is opened.
-FORMAT = 1
+FORMAT = 2
 
 # What `addProperty` takes: read-only 1, hidden 4, output 8 (a change does not touch the object).
 FIXED, HIDDEN, DERIVED = 1, 5, 9
@@ -106,6 +109,18 @@ def length_properties(obj: Any, values: Mapping[str, float]) -> None:
     for parameter, value in values.items():
         name, text = LENGTHS[parameter]
         add(obj, "App::PropertyLength", name, "Parameters", text, 0, value)
+
+
+def cell_properties(obj: Any, group: str, rows: int, columns: int) -> None:
+    """Add the numbers of cells up and across."""
+    for (name, text), count in zip(CELLS.items(), (rows, columns)):
+        limits = (count, 1, MOST_CELLS, 1)
+        add(obj, "App::PropertyIntegerConstraint", name, group, text, 0, limits)
+
+
+def frame_of(obj: Any, data: KitData) -> list[dict[str, Any]]:
+    """All placements of a kit's frame, at an object's rows and columns if the kit has them."""
+    return data.placements(*(getattr(obj, name, 0) for name in CELLS))
 
 
 def values_of(obj: Any, data: KitData) -> dict[str, float]:

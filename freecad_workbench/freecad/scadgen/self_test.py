@@ -1,7 +1,7 @@
 """Whether the workbench works in this FreeCAD: ``freecadcmd -t freecad.scadgen.self_test``.
 
 FreeCAD's Test workbench lists it as well.  The kit here is a square frame of plain boxes, whose
-volumes anyone can work out.
+volumes anyone can work out: in each cell a tube along its lower side, and what joins it there.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import tempfile
 import unittest
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,6 @@ import FreeCAD as App
 
 from freecad.scadgen import document, part_object
 from freecad.scadgen.affine import KitError
-from freecad.scadgen.layout import LAYOUTS
 
 __all__ = ["BoxesTest"]
 
@@ -32,15 +32,13 @@ _VALUES = {
 
 _WEAVE = {"ring_ratio": 2.0, "span": 0.9, "amplitude": 0.3, "bend": 0.7, "periods": 1.2}
 
-#: Parts of the kit, and their lengths: sides and edge lengths.
-_LENGTHS = {
-    "basic": (-2, 1),
-    "one_sided": (-1, 1),
-    "two_sided": (0, 1),
-    "connector": (1, 0),
-    "half": (2, 0),
-    "peg": (1, 0),
-    "tube": (3, 0),
+#: Parts of the kit: what each is for, and its length in sides and edge lengths.
+_PARTS = {
+    "basic": ("element", -2, 1),
+    "connector": ("connector", 1, 0),
+    "half": ("half", 2, 0),
+    "peg": ("peg", 1, 0),
+    "tube": ("tube", 3, 0),
 }
 
 
@@ -63,7 +61,7 @@ class BoxesTest(unittest.TestCase):
         return part
 
     def test_every_part_is_a_sound_solid_of_the_right_volume(self) -> None:
-        for kind in _LENGTHS:
+        for kind in _PARTS:
             part = self.add(kind)
             self.assertTrue(part.Shape.isValid() and part.Shape.isClosed(), kind)
             self.assertAlmostEqual(part.Shape.Volume, _volume(kind, 0.2), 6, kind)
@@ -87,10 +85,13 @@ class BoxesTest(unittest.TestCase):
     def test_a_frame_is_links(self) -> None:
         frame = document.add_frame(self.kit)
         self.doc.recompute()
-        pieces = len(LAYOUTS["square"](1, 2, "fixed"))
-        self.assertEqual(frame.Pieces, pieces)
-        self.assertEqual(sum(link.ElementCount for link in frame.Group), pieces)
+        # Of 1 x 2 cells: two tubes, a half at the near end of each, and a connector at the rim.
+        self.assertEqual(frame.Pieces, 5)
         self.assertEqual({link.TypeId for link in frame.Group}, {"App::Link"})
+        self.kit.Columns = 5
+        self.doc.recompute()
+        self.assertEqual([link.ElementCount for link in frame.Group], [5, 5, 1])
+        self.assertEqual(frame.Group[2].PlacementList[0].Base.x, 5 * 60)
 
     def test_a_saved_document_behaves_when_it_is_opened(self) -> None:
         self.add("half")
@@ -111,12 +112,12 @@ class BoxesTest(unittest.TestCase):
 
 
 def _volume(kind: str, clearance: float) -> float:
-    sides, edges = _LENGTHS[kind]
+    _, sides, edges = _PARTS[kind]
     length = sides * _VALUES["side"] + edges * _VALUES["edge_length"] - clearance
     return length * _VALUES["side"] ** 2
 
 
-def _box(sides: int, edges: int) -> dict[str, Any]:
+def _box(role: str, sides: int, edges: int) -> dict[str, Any]:
     """A box from 0 along x, a side wide and high, shortened by the clearance."""
     corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
     quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
@@ -126,10 +127,21 @@ def _box(sides: int, edges: int) -> dict[str, Any]:
         "clearance": [[-x, 0, 0] for x, _, _ in corners],
     }
     return {
+        "role": role,
+        "ends": [{"joint": "", "slot": 0, "over": False}] if role == "half" else [],
+        "length": edges,
         "points": points,
         "triangles": [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))],
         "facets": [n // 2 for n in range(12)],
     }
+
+
+def _piece(
+    part: str, role: str, any_of: Sequence[Sequence[int]], none_of: Sequence[Sequence[int]] = ()
+) -> dict[str, Any]:
+    """A piece of a cell, at its lower left."""
+    axes = {"at": [0, 0, 0], "x": [1, 0, 0], "z": [0, 0, 1]}
+    return {"part": part, "role": role, **axes, "any_of": any_of, "none_of": none_of}
 
 
 def _kit() -> str:
@@ -145,8 +157,11 @@ def _kit() -> str:
     ]
     kit = {
         "format": "scadgen-kit",
-        "version": 4,
-        "frame": "square",
+        "version": 5,
+        "name": "boxes",
+        "rim": "caps",
+        "refused": [],
+        "tiling": {"name": "boxes", "options": {}},
         "key": "fixed",
         "detail": "boxes",
         "rows": 1,
@@ -154,17 +169,24 @@ def _kit() -> str:
         "command": "",
         "values": _VALUES,
         "ranges": ranges,
-        "bill": {},
+        "cells": {
+            "across": [1, 0],
+            "up": [0, 1],
+            "drift": 0,
+            "pieces": [
+                _piece("basic", "row", [[0, 0]]),
+                _piece("half", "half_a", [[0, 0]]),
+                _piece("connector", "cap", [[-1, 0]], [[0, 0]]),
+            ],
+        },
         "joints": [
             {
                 "name": "",
                 "connectors": ["connector"],
                 "weave": {"name": "boxes", **_WEAVE},
-                "pieces": [
-                    {"part": "half", "at": [0, 0], "turn": 0, "flip": False, "role": "half_a"}
-                ],
+                "pieces": [_piece("half", "half_a", [])],
             }
         ],
-        "parts": {name: _box(*lengths) for name, lengths in _LENGTHS.items()},
+        "parts": {name: _box(*about) for name, about in _PARTS.items()},
     }
     return json.dumps(kit)

@@ -3,15 +3,43 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from freecad.scadgen.layout import KEYS, LAYOUTS, MOST_CELLS, PARAMETERS, PARTS, ROLES
+from freecad.scadgen.cells import MOST_CELLS
 
-__all__ = ["nonsense"]
+__all__ = ["KEYS", "PARAMETERS", "PART_ROLES", "ROLES", "nonsense"]
+
+#: Key styles.
+KEYS = ("fixed", "loose")
+
+#: What a part is for.
+PART_ROLES = ("element", "connector", "half", "peg", "tube")
+
+#: What a placed piece is to the viewer.
+ROLES = ("row", "cross", "half_a", "half_b", "cap", "peg")
+
+#: The live parameters; a kit without a bore lacks the last.
+PARAMETERS = (
+    "side",
+    "edge_length",
+    "clearance",
+    "peg_width",
+    "peg_length",
+    "peg_clearance",
+    "peg_chamfer",
+    "bore",
+)
+
+#: What files are called, and what parts are.
+_FILE, _PART = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}"), re.compile(r"[a-z][A-Za-z0-9_]*")
 
 #: The numbers of a weave; it may have a stretch as well.
 _WEAVE = ("ring_ratio", "span", "amplitude", "bend", "periods")
+
+#: How far axes may be from square, and from one long: rounding.
+_SQUARE = 1e-9
 
 
 def nonsense(document: Mapping[str, Any]) -> Iterator[str]:
@@ -22,29 +50,31 @@ def nonsense(document: Mapping[str, Any]) -> Iterator[str]:
     document
         The kit.  What is missing from it, or of another form, may raise instead.
     """
-    is_grid = "graph" not in document
-    for name in ("frame", "key", "detail", "command"):
+    has_cells = "cells" in document
+    if not _is_name(_FILE, document["name"]):
+        yield _wrong("name", document["name"], "a name for files: letters, digits, '.', '_', '-'")
+    for name in ("key", "rim", "detail", "command"):
         if not isinstance(document[name], str):
             yield _wrong(name, document[name], "text")
     if document["key"] not in KEYS:
         yield _wrong("key", document["key"], f"one of {', '.join(KEYS)}")
-    if is_grid and document["frame"] not in LAYOUTS:
-        yield _wrong("frame", document["frame"], f"one of {', '.join(LAYOUTS)}")
-    yield from _of_cells(document, 1 if is_grid else 0, MOST_CELLS if is_grid else 0)
+    yield from _of_counts(document, 1 if has_cells else 0, MOST_CELLS if has_cells else 0)
     yield from _of_lengths(document)
     parts = document["parts"]
-    for part in PARTS if is_grid else ():
-        if part not in parts:
-            yield f"part {part} is missing"
+    for name, part in parts.items():
+        yield from _of_part(name, part)
     if not document["joints"]:
         yield _wrong("joints", document["joints"], "at least one")
     for joint in document["joints"]:
         yield from _of_joint(joint, parts)
-    if not is_grid:
+    if has_cells:
+        yield from _of_tiling(document["tiling"])
+        yield from _of_cells(document["cells"], parts)
+    else:
         yield from _of_places(document["placements"], parts)
 
 
-def _of_cells(document: Mapping[str, Any], least: int, most: int) -> Iterator[str]:
+def _of_counts(document: Mapping[str, Any], least: int, most: int) -> Iterator[str]:
     """What is wrong with the rows and columns."""
     for name in ("rows", "columns"):
         count = document[name]
@@ -70,6 +100,23 @@ def _of_lengths(document: Mapping[str, Any]) -> Iterator[str]:
             yield _wrong("reason", limit["reason"], "text")
 
 
+def _of_part(name: str, part: Mapping[str, Any]) -> Iterator[str]:
+    """What is wrong with what a part is; its tables are read later."""
+    if not _is_name(_PART, name):
+        yield _wrong("name of a part", name, "letters, digits and '_', a small letter first")
+    if part["role"] not in PART_ROLES:
+        yield _wrong("role of a part", part["role"], f"one of {', '.join(PART_ROLES)}")
+    if not _is_number(part["length"]):
+        yield _wrong("length of a part", part["length"], "a finite number of edge lengths")
+    for end in part["ends"]:
+        if end["slot"] is not None and type(end["slot"]) is not int:
+            yield _wrong("slot of an end", end["slot"], "a whole number, or null")
+        if not isinstance(end["over"], bool):
+            yield _wrong("over of an end", end["over"], "true or false")
+    if len(part["ends"]) > 2 or (part["role"] == "half" and len(part["ends"]) != 1):
+        yield _wrong("ends of a part", part["ends"], "at most two, and one of a half")
+
+
 def _of_joint(joint: Mapping[str, Any], parts: Mapping[str, Any]) -> Iterator[str]:
     """What is wrong with a kind of joint."""
     weave = joint["weave"]
@@ -87,6 +134,30 @@ def _of_joint(joint: Mapping[str, Any], parts: Mapping[str, Any]) -> Iterator[st
     yield from _of_places(joint["pieces"], parts)
 
 
+def _of_tiling(tiling: Mapping[str, Any]) -> Iterator[str]:
+    """What is wrong with the tiling that the cells are of."""
+    if not _is_name(_FILE, tiling["name"]):
+        yield _wrong("name of a tiling", tiling["name"], "letters, digits, '.', '_' and '-'")
+    for name, value in tiling["options"].items():
+        if not _is_name(_PART, name) or not _is_number(value):
+            yield _wrong(f"option {name!r:.60} of a tiling", value, "a finite number")
+
+
+def _of_cells(cells: Mapping[str, Any], parts: Mapping[str, Any]) -> Iterator[str]:
+    """What is wrong with what stands in a cell."""
+    for name in ("across", "up"):
+        if not _are_numbers(cells[name], 2):
+            yield _wrong(name, cells[name], "two finite numbers")
+    if not _is_number(cells["drift"]):
+        yield _wrong("drift", cells["drift"], "a finite number of cells")
+    yield from _of_places(cells["pieces"], parts)
+    for piece in cells["pieces"]:
+        for name in ("any_of", "none_of"):
+            for cell in piece[name]:
+                if not isinstance(cell, list) or [type(v) for v in cell] != [int, int]:
+                    yield _wrong(f"cell in {name}", cell, "two whole numbers")
+
+
 def _of_places(places: Any, parts: Mapping[str, Any]) -> Iterator[str]:
     """What is wrong with where pieces stand."""
     if not places:
@@ -94,19 +165,32 @@ def _of_places(places: Any, parts: Mapping[str, Any]) -> Iterator[str]:
     for place in places:
         if place["part"] not in parts:
             yield f"there is no part {place['part']!r:.60}"
-        at = place["at"]
-        if not isinstance(at, list) or len(at) != 2 or not all(map(_is_number, at)):
-            yield _wrong("at", at, "two finite numbers")
-        if not _is_number(place["turn"]):
-            yield _wrong("turn", place["turn"], "a finite number of degrees")
-        if not isinstance(place["flip"], bool):
-            yield _wrong("flip", place["flip"], "true or false")
         if place["role"] not in ROLES:
             yield _wrong("role", place["role"], f"one of {', '.join(ROLES)}")
+        axes = [place[name] for name in ("x", "z")]
+        for name, vector in zip(("at", "x", "z"), (place["at"], *axes)):
+            if not _are_numbers(vector, 3):
+                yield _wrong(name, vector, "three finite numbers")
+        if all(_are_numbers(axis, 3) for axis in axes) and not _are_square(*axes):
+            yield _wrong("axes x and z", axes, "unit vectors, square to each other")
+
+
+def _are_square(x: Sequence[float], z: Sequence[float]) -> bool:
+    """Whether two vectors are square to each other, and one long."""
+    products = ((x, x, 1.0), (z, z, 1.0), (x, z, 0.0))
+    return all(abs(sum(a * b for a, b in zip(u, v)) - one) < _SQUARE for u, v, one in products)
+
+
+def _are_numbers(values: Any, count: int) -> bool:
+    return isinstance(values, list) and len(values) == count and all(map(_is_number, values))
 
 
 def _is_number(value: Any) -> bool:
     return type(value) in {int, float} and math.isfinite(value)
+
+
+def _is_name(form: re.Pattern[str], name: Any) -> bool:
+    return isinstance(name, str) and form.fullmatch(name) is not None
 
 
 def _wrong(what: str, value: object, wanted: str) -> str:

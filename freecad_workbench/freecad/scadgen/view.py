@@ -8,7 +8,9 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad.scadgen.names import COLOURS, role_alone
+from freecad.scadgen.affine import KitError
+from freecad.scadgen.kit_object import data_of
+from freecad.scadgen.names import COLOURS, icon_of, role_alone
 
 __all__ = ["ICONS", "ViewAssembly", "ViewKit", "ViewPart", "icon", "restore", "show"]
 
@@ -73,13 +75,17 @@ class ViewPart(_View):
 
     def paint(self, view: Any) -> None:
         """Give a new part its colour."""
-        view.ShapeColor = _colour(role_alone(view.Object.Kind))
+        obj = view.Object
+        view.ShapeColor = _colour(role_alone(data_of(obj.Kit).parts[obj.Kind]))
         # Curved walls are many flat faces: their edges would hide the shape.
         view.DisplayMode = "Shaded"
 
     def getIcon(self) -> str:
         """Icon in the tree: the one of its kind."""
-        return icon(getattr(self.Object, "Kind", "kit"))
+        try:
+            return icon(icon_of(data_of(self.Object.Kit).parts[self.Object.Kind]))
+        except (AttributeError, KeyError, KitError):  # not all there yet, or gone, or broken
+            return icon("kit")
 
     def setupContextMenu(self, view: Any, menu: Any) -> None:
         """Offer a clearance of its own, or the kit's again."""

@@ -14,11 +14,10 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 from freecad.scadgen import document
-from freecad.scadgen.affine import KitError, read_kit
+from freecad.scadgen.affine import KitData, KitError, read_kit
 from freecad.scadgen.engine import Engine, EngineError, Outcome
 from freecad.scadgen.figures import volume
 from freecad.scadgen.kit_object import data_of
-from freecad.scadgen.names import KINDS
 from freecad.scadgen.panels.panel import Panel
 from freecad.scadgen.properties import refuse, values_of
 
@@ -157,7 +156,7 @@ class CheckPanel(Panel):
         read_kit(folder)  # says what is wrong, if anything is
         made = json.loads((folder / "kit.json").read_text(encoding="utf-8"))["parts"]
         here = json.loads(self.kit.Data)["parts"]
-        for part in KINDS:
+        for part in dict.fromkeys((*here, *made)):
             good = here.get(part) == made.get(part)
             found = translate("Scadgen", "the same") if good else translate("Scadgen", "another")
             check = translate("Scadgen", "{} is what the engine makes").format(part)
@@ -169,7 +168,8 @@ class CheckPanel(Panel):
     def _checked(self, output: str) -> None:
         """Add what the engine found."""
         for good, check, figure, bound in _results(output):
-            about = next((p for p in KINDS if p in check.replace(":", " ").split()), "")
+            words = check.replace(":", " ").split()
+            about = next((p for p in data_of(self.kit).parts if p in words), "")
             self.rows.append(Row(good, check, figure, bound, self._about(about)))
         self._show()
         bad = sum(not row.good for row in self.rows)
@@ -248,12 +248,31 @@ def _making(kit: Any, folder: Path) -> list[str]:
     data = data_of(kit)
     values = values_of(kit, data)
     refuse(data, values)
-    weave = data.joints[0]["weave"]
-    path = folder / "weave.json"  # a name in the document may lead elsewhere
-    path.write_text(json.dumps({k: v for k, v in weave.items() if k != "name"}), encoding="utf-8")
-    words = ["kit", data.frame, "--output", str(folder / "kit"), "--weave", str(path)]
-    words += ["--key", data.key, "--detail", data.detail]
-    words += ["--rows", str(kit.Rows), "--columns", str(kit.Columns)]
+    words = ["kit", *_frame(kit, data, folder), "--output", str(folder / "kit")]
+    words += ["--key", data.key, "--detail", data.detail, "--rim", data.rim]
     for name, value in values.items():
-        words += [f"--{name.replace('_', '-')}", repr(value)]
-    return [*words, "--unchecked"]  # the check proves it anyway
+        words += [_option(name), repr(value)]
+    # The check proves it anyway; but keys that follow from a proof do so again.
+    return words if data.has_refused else [*words, "--unchecked"]
+
+
+def _frame(kit: Any, data: KitData, folder: Path) -> list[str]:
+    """Arguments that name a kit's frame: a tiling, or the file that it is written to."""
+    if data.tiling is None:
+        path = folder / f"{data.name}.json"
+        path.write_text(json.dumps(data.frame), encoding="utf-8")
+        return [str(path)]
+    words = [data.tiling["name"], "--rows", str(kit.Rows), "--columns", str(kit.Columns)]
+    for name, value in data.tiling["options"].items():
+        words += [_option(name), repr(value)]
+    if data.is_regular:
+        weave = data.joints[0]["weave"]
+        path = folder / "weave.json"  # a name in the document may lead elsewhere
+        numbers = {name: value for name, value in weave.items() if name != "name"}
+        path.write_text(json.dumps(numbers), encoding="utf-8")
+        words += ["--weave", str(path)]
+    return words
+
+
+def _option(name: str) -> str:
+    return f"--{name.replace('_', '-')}"

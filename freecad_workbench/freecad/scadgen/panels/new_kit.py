@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -14,16 +13,15 @@ from PySide import QtCore
 from freecad.scadgen import document
 from freecad.scadgen.affine import KitError, read_kit
 from freecad.scadgen.engine import Engine, EngineError, Outcome
-from freecad.scadgen.figures import RING_RATIOS, edge_sides, estimate, mass
-from freecad.scadgen.layout import LAYOUTS
-from freecad.scadgen.names import FRAMES, LENGTHS
+from freecad.scadgen.names import LENGTHS
 from freecad.scadgen.panels.panel import Panel
-from freecad.scadgen.preferences import clearance, density
+from freecad.scadgen.preferences import clearance
 
 __all__ = ["NewKitPanel", "add_to_document"]
 
 translate = App.Qt.translate
 
+_FRAMES = ("hexagonal", "square")
 _KEYS = ("fixed", "loose")
 _DETAILS = ("draft", "standard", "fine")
 _PLACES = ("joint", "frame", "nothing")
@@ -37,8 +35,8 @@ class NewKitPanel(Panel):
     def __init__(self) -> None:
         super().__init__()
         form = self.form
-        for name in FRAMES.values():
-            form.frame.addItem(translate("Scadgen", name))
+        for name in _FRAMES:
+            form.frame.addItem(name)
         form.detail.setCurrentIndex(1)
         form.clearance.setProperty("rawValue", clearance())
         for name in LENGTHS:
@@ -61,7 +59,7 @@ class NewKitPanel(Panel):
     @property
     def frame(self) -> str:
         """The frame chosen."""
-        return [*FRAMES][self.form.frame.currentIndex()]
+        return _FRAMES[self.form.frame.currentIndex()]
 
     @property
     def key(self) -> str:
@@ -90,26 +88,9 @@ class NewKitPanel(Panel):
         return words if form.proved.isChecked() else [*words, "--unchecked"]
 
     def update(self, *_: Any) -> None:
-        """Show the figures of what is asked for."""
+        """Show what belongs to what is chosen."""
         form = self.form
         form.weave_file.setVisible(form.weave.currentIndex() == 1)
-        placements = LAYOUTS[self.frame](form.rows.value(), form.columns.value(), self.key)
-        ratio, given = self._ring_ratio(), self.lengths()
-        side = given.get("side", 10.0)
-        edge = given.get("edge_length", side * edge_sides(ratio, self.key))
-        grams = mass(estimate(placements, side, edge, ratio), density())
-        text = translate("Scadgen", "{} pieces to print, about {:.0f} g printed solid")
-        form.figures.setText(text.format(len(placements), grams))
-
-    def _ring_ratio(self) -> float:
-        own = RING_RATIOS[self.frame, self.key]
-        if self.form.weave.currentIndex() == 0:
-            return own
-        try:
-            path = Path(self.form.weave_file.property("fileName"))
-            return float(json.loads(path.read_text(encoding="utf-8"))["ring_ratio"])
-        except (OSError, ValueError, KeyError, TypeError):
-            return own  # the engine will say what is wrong with the file
 
     # The engine's run
 

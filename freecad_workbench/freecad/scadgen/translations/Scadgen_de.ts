@@ -96,10 +96,6 @@
    <translation>Der Befehl, der den Bausatz erzeugt hat</translation>
   </message>
   <message>
-   <source>The grid</source>
-   <translation>Das Gitter</translation>
-  </message>
-  <message>
    <source>The kit that the part belongs to</source>
    <translation>Der Bausatz, zu dem das Teil gehört</translation>
   </message>
@@ -124,8 +120,16 @@
    <translation>Volumen des Teils</translation>
   </message>
   <message>
+   <source>What the kit's files are called</source>
+   <translation>Wie die Dateien des Bausatzes heißen</translation>
+  </message>
+  <message>
    <source>What the shape was made of</source>
    <translation>Woraus die Form entstanden ist</translation>
+  </message>
+  <message>
+   <source>Which kind of joint</source>
+   <translation>Welche Art von Knoten</translation>
   </message>
   <message>
    <source>Which part of the kit it is</source>
@@ -203,10 +207,6 @@
    <translation>Hälften B</translation>
   </message>
   <message>
-   <source>Hexagons</source>
-   <translation>Sechsecke</translation>
-  </message>
-  <message>
    <source>Joint</source>
    <translation>Knoten</translation>
   </message>
@@ -247,6 +247,10 @@
    <translation>Eigenes Spiel</translation>
   </message>
   <message>
+   <source>Parts</source>
+   <translation>Teile</translation>
+  </message>
+  <message>
    <source>Peg</source>
    <translation>Zapfen</translation>
   </message>
@@ -261,10 +265,6 @@
   <message>
    <source>Restore</source>
    <translation>Wiederherstellen</translation>
-  </message>
-  <message>
-   <source>Squares</source>
-   <translation>Quadrate</translation>
   </message>
   <message>
    <source>Stopped; nothing was made</source>
@@ -323,6 +323,10 @@
    <translation>scadgen: nicht gefunden; installieren Sie es wie im README dieses Arbeitsbereichs, oder {}</translation>
   </message>
   <message>
+   <source>second shape</source>
+   <translation>zweite Form</translation>
+  </message>
+  <message>
    <source>the same</source>
    <translation>dasselbe</translation>
   </message>
@@ -363,10 +367,6 @@
    <translation>{} von {} Prüfungen sind gut</translation>
   </message>
   <message>
-   <source>{} pieces to print, about {:.0f} g printed solid</source>
-   <translation>{} Teile zu drucken, voll gedruckt etwa {:.0f} g</translation>
-  </message>
-  <message>
    <source>{}: cannot be started; {}</source>
    <translation>{}: lässt sich nicht starten; {}</translation>
   </message>
@@ -384,6 +384,13 @@
   <message>
    <source>Choose a line to select the part that it is about</source>
    <translation>Eine Zeile wählt das Teil aus, um das es geht</translation>
+  </message>
+ </context>
+ <context>
+  <name>ScadgenChoose</name>
+  <message>
+   <source>What to add; Ctrl and Shift choose several</source>
+   <translation>Was hinzugefügt wird; mit Strg und Umschalt mehreres</translation>
   </message>
  </context>
  <context>
@@ -679,17 +686,6 @@
   </message>
  </context>
  <context>
-  <name>Scadgen_Basic</name>
-  <message>
-   <source>Add a tube with a connector at both ends</source>
-   <translation>Ein Rohr mit einem Verbinder an beiden Enden hinzufügen</translation>
-  </message>
-  <message>
-   <source>Basic element</source>
-   <translation>Grundelement</translation>
-  </message>
- </context>
- <context>
   <name>Scadgen_Check</name>
   <message>
    <source>Check</source>
@@ -698,17 +694,6 @@
   <message>
    <source>Check all that is known about the kit at its present values</source>
    <translation>Alles prüfen, was über den Bausatz mit seinen jetzigen Werten bekannt ist</translation>
-  </message>
- </context>
- <context>
-  <name>Scadgen_Connector</name>
-  <message>
-   <source>Add a loose connector, as the frame's rim needs</source>
-   <translation>Einen losen Verbinder hinzufügen, wie ihn der Rand des Rahmens braucht</translation>
-  </message>
-  <message>
-   <source>Connector</source>
-   <translation>Verbinder</translation>
   </message>
  </context>
  <context>
@@ -736,23 +721,12 @@
  <context>
   <name>Scadgen_Frame</name>
   <message>
-   <source>Add the assembled frame; rows and columns are its properties</source>
+   <source>Add the assembled frame; its rows and columns are properties</source>
    <translation>Den fertigen Rahmen hinzufügen; Reihen und Spalten sind seine Eigenschaften</translation>
   </message>
   <message>
    <source>Frame</source>
    <translation>Rahmen</translation>
-  </message>
- </context>
- <context>
-  <name>Scadgen_Half</name>
-  <message>
-   <source>Add one of the two equal halves that lock a joint</source>
-   <translation>Eine der zwei gleichen Hälften hinzufügen, die einen Knoten sichern</translation>
-  </message>
-  <message>
-   <source>Half</source>
-   <translation>Hälfte</translation>
   </message>
  </context>
  <context>
@@ -778,17 +752,6 @@
   </message>
  </context>
  <context>
-  <name>Scadgen_OneSided</name>
-  <message>
-   <source>Add a tube with a connector at one end and a peg at the other</source>
-   <translation>Ein Rohr mit einem Verbinder am einen und einem Zapfen am anderen Ende hinzufügen</translation>
-  </message>
-  <message>
-   <source>One-sided element</source>
-   <translation>Einseitiges Element</translation>
-  </message>
- </context>
- <context>
   <name>Scadgen_OpenKit</name>
   <message>
    <source>Open kit</source>
@@ -800,14 +763,14 @@
   </message>
  </context>
  <context>
-  <name>Scadgen_Peg</name>
+  <name>Scadgen_Part</name>
   <message>
-   <source>Add the peg that keeps two halves together</source>
-   <translation>Den Zapfen hinzufügen, der zwei Hälften zusammenhält</translation>
+   <source>Add parts of the kit</source>
+   <translation>Teile des Bausatzes hinzufügen</translation>
   </message>
   <message>
-   <source>Peg</source>
-   <translation>Zapfen</translation>
+   <source>Part</source>
+   <translation>Teil</translation>
   </message>
  </context>
  <context>
@@ -830,17 +793,6 @@
   <message>
    <source>Restore</source>
    <translation>Wiederherstellen</translation>
-  </message>
- </context>
- <context>
-  <name>Scadgen_TwoSided</name>
-  <message>
-   <source>Add a tube with a peg at both ends</source>
-   <translation>Ein Rohr mit einem Zapfen an beiden Enden hinzufügen</translation>
-  </message>
-  <message>
-   <source>Two-sided element</source>
-   <translation>Zweiseitiges Element</translation>
   </message>
  </context>
  <context>
