@@ -1,0 +1,131 @@
+"""Which rules of style sheets go for which element, within a bounded number of steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from cssselect2 import ElementWrapper, Matcher, SelectorError, compile_selector_list
+
+from scadgen.errors import InputError
+
+if TYPE_CHECKING:
+    from xml.etree.ElementTree import Element
+
+__all__ = ["Rules"]
+
+#: Elements that are compared with selectors, at most, each time that one is.
+_MOST_STEPS = 5_000_000
+
+#: A selector is at most this long: it is compiled to an expression of Python.
+_LONGEST = 2_000
+
+
+class Rules:
+    """Rules by their selectors; the payload of each is the caller's."""
+
+    def __init__(self) -> None:
+        self._matcher = Matcher()
+        self._steps = 0
+
+    def __bool__(self) -> bool:
+        """Whether there are any."""
+        return bool(self._matcher.order)
+
+    def add(self, prelude: list[Any], payload: object) -> None:
+        """Add a rule; one whose selectors nobody understands is none, as in browsers.
+
+        Parameters
+        ----------
+        prelude
+            The selectors, as tinycss2 gives them.
+        payload
+            What `matching` gives for elements that they select.
+        """
+        from tinycss2 import serialize
+
+        text = serialize(prelude)
+        if len(text) > _LONGEST:
+            msg = f"style sheet: selector {text[:40]!r} has more than {_LONGEST} characters"
+            raise InputError(msg)
+        try:
+            selectors = compile_selector_list(text)
+        except (SelectorError, NotImplementedError, SyntaxError, RecursionError, MemoryError):
+            return
+        for selector in selectors:
+            self._matcher.add_selector(selector, payload)
+
+    def matching(self, root: Element) -> Iterator[tuple[Element, list[Any]]]:
+        """Every element that has rules, and their payloads; those that win last.
+
+        Raises
+        ------
+        InputError
+            It would take too long to find them.
+        """
+        for node in _Node.of(root, self).iter_subtree():
+            found = self._matcher.match(node)
+            self.step(self._compared(node))
+            payloads = [payload for _, _, pseudo, payload in found if pseudo is None]
+            if payloads:
+                yield node.etree_element, payloads
+
+    def step(self, count: int = 1) -> None:
+        """Count what is compared."""
+        self._steps += count
+        if self._steps > _MOST_STEPS:
+            msg = f"style sheet: its selectors take more than {_MOST_STEPS} comparisons"
+            raise InputError(msg)
+
+    def _compared(self, node: _Node) -> int:
+        """How many selectors are compared with an element."""
+        matcher = self._matcher
+        return (
+            len(matcher.other_selectors)
+            + len(matcher.lower_local_name_selectors.get(node.local_name.lower(), ()))
+            + len(matcher.namespace_selectors.get(node.namespace_url, ()))
+            + len(matcher.id_selectors.get(node.id, ()))
+            + sum(1 + len(matcher.class_selectors.get(name, ())) for name in node.classes)
+        )
+
+
+class _Node(ElementWrapper):  # type: ignore[misc]
+    """An element whose relatives are counted as they are asked for, and not kept."""
+
+    rules: Rules
+
+    @classmethod
+    def of(cls, root: Element, rules: Rules) -> _Node:
+        node: _Node = cls.from_xml_root(root)
+        node.rules = rules
+        return node
+
+    def __init__(self, etree_element: Element, parent: _Node | None, *args: Any, **kw: Any) -> None:  # noqa: ANN401
+        super().__init__(etree_element, parent, *args, **kw)
+        if parent is not None:
+            self.rules = parent.rules
+            self.rules.step()
+
+    @property
+    def ancestors(self) -> Iterator[_Node]:
+        return self._along("parent")
+
+    @property
+    def previous_siblings(self) -> Iterator[_Node]:
+        return self._along("previous")
+
+    @property
+    def etree_siblings(self) -> list[Element]:
+        self.rules.step(len(self._siblings))
+        return self._siblings
+
+    @etree_siblings.setter
+    def etree_siblings(self, siblings: list[Element]) -> None:
+        self._siblings = siblings
+
+    def _along(self, way: str) -> Iterator[_Node]:
+        node = getattr(self, way)
+        while node is not None:
+            self.rules.step()
+            yield node
+            node = getattr(node, way)
