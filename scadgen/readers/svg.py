@@ -6,7 +6,6 @@ y goes up in a frame and down in SVG, so a frame looks as the drawing does.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -14,11 +13,11 @@ import numpy as np
 
 from scadgen.readers.curves import flattened
 from scadgen.readers.reading import Read, Reading, from_segments, load, unknown
-from scadgen.readers.svg_clip import box, clipped
+from scadgen.readers.svg_clip import clipped, covered
+from scadgen.readers.svg_elements import kind_of
 from scadgen.readers.svg_paint import MARKERS, Paints
-from scadgen.readers.svg_place import Place
+from scadgen.readers.svg_place import outermost
 from scadgen.readers.svg_style import Cascade
-from scadgen.readers.svg_text import Measure
 from scadgen.readers.svg_viewport import Page, page_of
 from scadgen.readers.svg_walk import Shape, Walk
 from scadgen.readers.svg_xml import parse_svg
@@ -39,6 +38,19 @@ _UNDONE = {
     "pattern": "patterns",
 }
 
+#: What is told of what was left out or changed, each with a count.
+_TOLD = {
+    "background": "filled rectangle as large as the page left out, as background",
+    "background read": "filled rectangle as large as the page, with nothing else in it",
+    "beyond": "shapes left out beyond the page, a viewport or a clip path",
+    "cut": "shapes cut where the page, a viewport or a clip path ends",
+    "closed": "filled outlines closed by a straight line",
+    "bare": "shapes without fill and stroke left out",
+    "bare read": "nothing in it is painted; shapes without fill and stroke read all the same",
+    "hidden": "elements hidden by their style",
+    "symbol": "symbols, which are shown where they are used",
+}
+
 
 @dataclass(slots=True)
 class _Outlines:
@@ -46,10 +58,12 @@ class _Outlines:
 
     page: Page
     paints: Paints
+    walk: Walk
     tolerance: float
     lines: list[Floats] = field(default_factory=list)
-    #: Outlines of shapes that are not painted.
+    #: Outlines of shapes that are not painted, and of backgrounds.
     bare: list[Floats] = field(default_factory=list)
+    background: list[Floats] = field(default_factory=list)
     told: Counter[str] = field(default_factory=Counter)
     undone: Counter[str] = field(default_factory=Counter)
     #: Shapes with curves, and their segments.
@@ -70,7 +84,8 @@ class _Outlines:
             return
         self.undone["pattern"] += self.paints.has_pattern(style)
         self.undone["marker"] += any(style.get(name, "none") != "none" for name in MARKERS)
-        if shape.place.clip is not None:
+        if shape.place.clip is not None and not covered(lines, shape.place.clip):
+            self.walk.count_clipping(shape.place.clip)
             rule = style.get("fill-rule", "nonzero")
             left = clipped(
                 lines,
@@ -85,6 +100,7 @@ class _Outlines:
                 lines = left
         if not stroked and not self.lines and self._covers(lines):
             self.told["background"] += 1
+            self.background += lines
             return
         self.lines += lines
         if shape.curved:
@@ -123,40 +139,31 @@ def read_svg(path: Path, reading: Reading) -> Read:
     root, sheets = parse_svg(load(path, reading))
     cascade = Cascade(root)
     by_id = {key: e for e in reversed([*root.iter()]) if (key := e.get("id")) is not None}
-    page = page_of(root, cascade.style(root, {}), reading)
+    style = cascade.style(root, {})
+    page = page_of(root, style, reading)
     walk = Walk(cascade, by_id, reading.flatten, reading.most)
-    found = _Outlines(page, Paints(by_id, cascade), reading.tolerance)
-    clip = box(page.sheet) if page.bounded and page.sheet is not None else None
-    place = Place(page.to_mm, {}, Measure(page.size, dots=page.dots), clip)
-    for shape in walk.shapes([root], place):
+    found = _Outlines(page, Paints(by_id, cascade), walk, reading.tolerance)
+    for shape in walk.shapes([root], outermost(root, page, style)):
         found.add(shape)
-    notes = [*page.notes, *_told(found, walk.undone, sheets + cascade.outside)]
-    lines = found.lines
-    if not lines and found.bare:
-        notes[-1] = f"nothing in it is painted: shapes read all the same: {found.told['bare']}"
-        lines = found.bare
+    notes = [*page.notes, *_undone(walk.undone + found.undone, sheets + cascade.outside)]
+    lines, told = found.lines, found.told
+    if not lines:
+        lines, read = (found.background, "background") if found.background else (found.bare, "bare")
+        told = told + Counter({f"{read} read": told.pop(read, 0), "hidden": walk.hidden})
+        told["symbol"] = sum(kind_of(element) == "symbol" for element in root.iter())
+    notes += [f"{words}: {told[kind]}" for kind, words in _TOLD.items() if told[kind]]
     notes += unknown(walk.strange, reading)
     notes += flattened(found.curved, found.chords, reading.flatten)
     segments = [np.stack([line[:-1], line[1:]], axis=1) for line in lines]
     return from_segments(path.stem, segments, reading, notes)
 
 
-def _told(found: _Outlines, undone: Counter[str], sheets: int) -> Iterable[str]:
-    """Notes on what was left out, and what is not as it is shown."""
-    words = {
-        "background": "filled rectangle as large as the page left out, as background",
-        "beyond": "shapes left out beyond the page, a viewport or a clip path",
-        "cut": "shapes cut where the page, a viewport or a clip path ends",
-        "closed": "filled outlines closed by a straight line",
-        "bare": "shapes without fill and stroke left out",
-    }
-    counts = [f"{words[kind]}: {found.told[kind]}" for kind in words if found.told[kind]]
-    undone = undone + found.undone
-    missed = [f"{_UNDONE[name]}: {undone[name]}" for name in sorted(undone) if undone[name]]
+def _undone(kinds: Counter[str], sheets: int) -> list[str]:
+    """Note what is not as it is shown."""
+    missed = [f"{_UNDONE[name]}: {kinds[name]}" for name in sorted(kinds) if kinds[name]]
     if sheets:
         missed.append(f"style sheets outside the file: {sheets}")
-    ignored = [f"not done, shapes are read without it: {', '.join(missed)}"] if missed else []
-    return [*ignored, *counts]
+    return [f"not done, shapes are read without it: {', '.join(missed)}"] if missed else []
 
 
 def _is_wide(line: Floats) -> bool:

@@ -15,7 +15,7 @@ from scadgen.solid.affine import Floats
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["box", "clipped", "region"]
+__all__ = ["clipped", "covered", "region"]
 
 #: Outlines that clip or are clipped cross themselves this often, at most.
 _MOST_CROSSINGS = 20_000
@@ -25,12 +25,6 @@ _MOST_STEPS = 50_000_000
 
 #: Lines that go along the edge of what is shown, this near to it, are shown, in mm.
 _NEAR = 1e-6
-
-
-def box(corners: Floats) -> BaseGeometry:
-    """The rectangle between two corners, ``(2, 2) float``, ascending."""
-    (left, low), (right, high) = corners.tolist()
-    return shapely.Polygon([(left, low), (right, low), (right, high), (left, high)])
 
 
 def region(lines: Sequence[Floats], rule: str) -> BaseGeometry:
@@ -72,6 +66,12 @@ def region(lines: Sequence[Floats], rule: str) -> BaseGeometry:
     turns = np.array([_turns(point, ends) for point in inside], dtype=int)
     kept = turns % 2 == 1 if rule == "evenodd" else turns != 0
     return shapely.union_all(faces[kept])
+
+
+def covered(lines: Sequence[Floats], clip: BaseGeometry) -> bool:
+    """Whether all of some lines is shown; quick where much is clipped by the same."""
+    shapely.prepare(clip)
+    return bool(clip.covers(shapely.MultiLineString([shapely.LineString(x) for x in lines])))
 
 
 def clipped(

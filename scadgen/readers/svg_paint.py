@@ -6,17 +6,15 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from scadgen.readers.svg_elements import HREF, kind_of
 from scadgen.readers.svg_properties import alpha, share
 from scadgen.readers.svg_style import Cascade, Style
 from scadgen.readers.svg_text import Measure
-from scadgen.readers.svg_xml import kind_of
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
-__all__ = ["HREF", "MARKERS", "Paints", "linked"]
-
-HREF = "{http://www.w3.org/1999/xlink}href"
+__all__ = ["MARKERS", "Paints", "linked"]
 
 MARKERS = ("marker-start", "marker-mid", "marker-end")
 

@@ -13,7 +13,7 @@ from scadgen.readers.svg_shapes import length
 from scadgen.readers.svg_style import Style
 from scadgen.readers.svg_text import Measure
 from scadgen.readers.svg_transform import css_transform, moved, origin, transform
-from scadgen.readers.svg_viewport import fitted, view_box
+from scadgen.readers.svg_viewport import Page, fitted, view_box
 from scadgen.solid.affine import Floats
 
 if TYPE_CHECKING:
@@ -21,7 +21,16 @@ if TYPE_CHECKING:
 
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Box", "Place", "measured", "own_transform", "viewport", "visible", "within"]
+__all__ = [
+    "Box",
+    "Place",
+    "measured",
+    "outermost",
+    "own_transform",
+    "viewport",
+    "visible",
+    "within",
+]
 
 #: Corner and size.
 Box = tuple[tuple[float, float], tuple[float, float]]
@@ -45,6 +54,8 @@ class Place:
         How many uses and clip paths it is in.
     use
         The use that shows it, if one does so directly.
+    used
+        What is used, if it is in that.
     """
 
     matrix: Floats
@@ -53,6 +64,34 @@ class Place:
     clip: BaseGeometry | None = None
     depth: int = 0
     use: Element | None = None
+    used: Element | None = None
+
+
+def outermost(root: Element, page: Page, style: Style) -> Place:
+    """Where the root of a document is: turned about its middle, if it is, as in a window.
+
+    Raises
+    ------
+    InputError
+        A transform that is none.
+    """
+    matrix, shown = page.to_mm, None
+    middle = "0 0" if page.window is None else "50% 50%"
+    style = {"transform-origin": middle, **style, "transform-box": "view-box"}
+    window = Place(np.eye(3), style, Measure(page.window, dots=page.dots))
+    turn = own_transform(root, window, lambda: ((0.0, 0.0), page.window or (0.0, 0.0)))
+    if turn is not None:
+        matrix = matrix @ np.linalg.inv(page.to_window) @ turn @ page.to_window
+    if page.window is not None and page.sheet is not None:
+        (left, low), (right, high) = page.sheet
+        corners = np.array([[left, low], [right, low], [right, high], [left, high]])
+        shown = region([corners], "nonzero")
+        if turn is not None:
+            moves = matrix @ np.linalg.inv(page.to_mm)
+            shown = region([corners @ moves[:2, :2].T + moves[:2, 2]], "nonzero").intersection(
+                shown
+            )
+    return Place(matrix, {}, Measure(page.size, dots=page.dots), shown)
 
 
 def visible(place: Place) -> bool:
@@ -74,30 +113,24 @@ def within(here: Place, shown: BaseGeometry) -> Place:
     return replace(here, clip=shown if here.clip is None else here.clip.intersection(shown))
 
 
-def viewport(kind: str, element: Element, here: Place, use: Element | None) -> Place | None:
+def viewport(element: Element, here: Place, use: Element | None) -> Place | None:
     """What is in a viewport within the drawing; None if that has no size.
 
     Parameters
     ----------
-    kind
-        `svg`, or `symbol`, which is as large as its use says.
     element
-        The viewport.
+        The viewport: `svg` or `symbol`.
     here
         Where it stands.
     use
-        The use that shows it, if one does.
+        The use that shows it, if one does: that may say another size.
     """
-    matrix = here.matrix
+    x, y = (length(name, element, here.style, here.measure) for name in ("x", "y"))
+    matrix = here.matrix @ moved(x, y)
     sizes = {"width": "100%", "height": "100%"}
     for name in sizes:
-        asked = [use.get(name) if use is not None else None]
-        if kind == "svg":
-            asked += [here.style.get(name), element.get(name)]
+        asked = [None if use is None else use.get(name), here.style.get(name), element.get(name)]
         sizes[name] = next((text for text in asked if text and text.strip() != "auto"), "100%")
-    if kind == "svg":
-        x, y = (length(name, element, here.style, here.measure) for name in ("x", "y"))
-        matrix = matrix @ moved(x, y)
     clips = here.style.get("overflow", "hidden") in {"hidden", "scroll", "clip"}
     box = view_box(element)
     if here.measure.page is None and not (clips and box) and "100%" in sizes.values():

@@ -5,11 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from functools import cache
+from typing import Any
 
-__all__ = ["GEOMETRY", "INHERITED", "KNOWN", "alpha", "custom", "share", "valid"]
+__all__ = ["GEOMETRY", "INHERITED", "KNOWN", "alpha", "as_text", "custom", "share", "valid"]
 
 #: Properties that shapes and viewports have as attributes without units, too.
 GEOMETRY = frozenset({"x", "y", "width", "height", "cx", "cy", "r", "rx", "ry"})
+
+#: Those that are not negative.
+_SIZES = ("width", "height", "r", "rx", "ry")
 
 INHERITED = frozenset(
     {
@@ -40,12 +44,25 @@ def custom(name: str) -> bool:
     return name.startswith("--")
 
 
+def as_text(tokens: list[Any]) -> str:
+    """Tokens of tinycss2 as text; nothing if they nest too deep for anybody."""
+    from tinycss2 import serialize
+
+    try:
+        return str(serialize(tokens)).strip()
+    except RecursionError:
+        return ""
+
+
 @cache
 def alpha(color: str) -> float | None:
     """How opaque a colour is, 0 to 1; None if it is none.  The current colour is opaque here."""
     from tinycss2.color4 import parse_color
 
-    found = parse_color(color)
+    try:
+        found = parse_color(color)
+    except RecursionError:
+        return None
     if found is None:
         return None
     return 1.0 if isinstance(found, str) else float(found.alpha)
@@ -91,6 +108,7 @@ def _length(value: str) -> bool:
 #: What each property that matters here may be.
 KNOWN: dict[str, Callable[[str], bool]] = {
     **dict.fromkeys(GEOMETRY, _length),
+    **dict.fromkeys(_SIZES, lambda value: _length(value) and not value.startswith("-")),
     **dict.fromkeys(("fill", "stroke"), _paint),
     **dict.fromkeys(
         ("fill-opacity", "opacity", "stop-opacity", "stroke-opacity"),
@@ -108,7 +126,7 @@ KNOWN: dict[str, Callable[[str], bool]] = {
     "font-size": _anything,
     "overflow": _words("visible", "hidden", "scroll", "auto", "clip"),
     "stroke-width": lambda value: (
-        _length(value) or (_SHARE.fullmatch(value) is not None and float(value) >= 0)
+        (_length(value) or _SHARE.fullmatch(value) is not None) and not value.startswith("-")
     ),
     "transform-box": _words("view-box", "fill-box", "stroke-box", "content-box", "border-box"),
     "visibility": _words("visible", "hidden", "collapse"),

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
+from xml.etree import ElementTree as ET
 
 from cssselect2 import ElementWrapper, Matcher, SelectorError, compile_selector_list
 
 from scadgen.errors import InputError
-
-if TYPE_CHECKING:
-    from xml.etree.ElementTree import Element
+from scadgen.readers.svg_properties import as_text
 
 __all__ = ["Rules"]
 
@@ -42,9 +41,7 @@ class Rules:
         payload
             What `matching` gives for elements that they select.
         """
-        from tinycss2 import serialize
-
-        text = serialize(prelude)
+        text = as_text(prelude)
         if len(text) > _LONGEST:
             msg = f"style sheet: selector {text[:40]!r} has more than {_LONGEST} characters"
             raise InputError(msg)
@@ -55,14 +52,25 @@ class Rules:
         for selector in selectors:
             self._matcher.add_selector(selector, payload)
 
-    def matching(self, root: Element) -> Iterator[tuple[Element, list[Any]]]:
+    def matching(self, root: ET.Element, *, used: bool) -> Iterator[tuple[ET.Element, list[Any]]]:
         """Every element that has rules, and their payloads; those that win last.
+
+        Parameters
+        ----------
+        root
+            Where to begin.
+        used
+            Whether it stands in a use: selectors know nothing of what is around it there.
 
         Raises
         ------
         InputError
             It would take too long to find them.
         """
+        if used:
+            around = ET.Element("use")
+            around.append(root)
+            root = around
         for node in _Node.of(root, self).iter_subtree():
             found = self._matcher.match(node)
             self.step(self._compared(node))
@@ -95,13 +103,19 @@ class _Node(ElementWrapper):  # type: ignore[misc]
     rules: Rules
 
     @classmethod
-    def of(cls, root: Element, rules: Rules) -> _Node:
+    def of(cls, root: ET.Element, rules: Rules) -> _Node:
         node: _Node = cls.from_xml_root(root)
         node.rules = rules
         return node
 
-    def __init__(self, etree_element: Element, parent: _Node | None, *args: Any, **kw: Any) -> None:  # noqa: ANN401
-        super().__init__(etree_element, parent, *args, **kw)
+    def __init__(
+        self,
+        etree_element: ET.Element,
+        parent: _Node | None,
+        *others: Any,  # noqa: ANN401 -- as its base has it
+        **named: Any,  # noqa: ANN401
+    ) -> None:
+        super().__init__(etree_element, parent, *others, **named)
         if parent is not None:
             self.rules = parent.rules
             self.rules.step()
@@ -115,12 +129,12 @@ class _Node(ElementWrapper):  # type: ignore[misc]
         return self._along("previous")
 
     @property
-    def etree_siblings(self) -> list[Element]:
+    def etree_siblings(self) -> list[ET.Element]:
         self.rules.step(len(self._siblings))
         return self._siblings
 
     @etree_siblings.setter
-    def etree_siblings(self, siblings: list[Element]) -> None:
+    def etree_siblings(self, siblings: list[ET.Element]) -> None:
         self._siblings = siblings
 
     def _along(self, way: str) -> Iterator[_Node]:

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from scadgen.errors import InputError
-from scadgen.readers.svg_properties import GEOMETRY, INHERITED, KNOWN, custom, valid
-from scadgen.readers.svg_xml import kind_of
+from scadgen.readers.svg_elements import kind_of
+from scadgen.readers.svg_properties import GEOMETRY, INHERITED, KNOWN, as_text, custom, valid
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
@@ -65,11 +65,13 @@ class Cascade:
     #: How many style sheets are referred to, which are not opened.
     outside: int = 0
     _parents: dict[Element, Element] | None = None
-    _of_rules: dict[Element, list[Declared]] = field(default_factory=dict)
+    #: Rules of elements: those of the document, and those in each element that is used.
+    _of_rules: dict[Element | None, dict[Element, list[Declared]]] = field(default_factory=dict)
+    _rules: Any = None
     _inline: dict[str, Declared] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Find the rules of every element."""
+        """Read the style sheets."""
         from scadgen.readers.svg_selectors import Rules
 
         texts = [text for text in _sheets(self.root) if text.strip()]
@@ -81,10 +83,9 @@ class Cascade:
         rules = Rules()
         for text in texts:
             self._add(rules, text)
-        if rules:
-            self._of_rules = dict(rules.matching(self.root))
+        self._rules = rules or None
 
-    def style(self, element: Element, parent: Style) -> dict[str, str]:
+    def style(self, element: Element, parent: Style, used: Element | None = None) -> dict[str, str]:
         """Compute what an element has.
 
         Parameters
@@ -93,9 +94,11 @@ class Cascade:
             The element.
         parent
             What that has, from which it inherits: where it is used, if it is.
+        used
+            What is used, if it is in that.
         """
         style = {k: v for k, v in parent.items() if k in INHERITED or custom(k)}
-        declared = self._declared(element)
+        declared = self._declared(element, used)
         variables = {k: v for k, v in declared.items() if custom(k)}
         style |= {k: _replaced(v, style | variables) or "" for k, v in variables.items()}
         for name, text in declared.items():
@@ -129,13 +132,13 @@ class Cascade:
             style = self.style(one, style)
         return style
 
-    def _declared(self, element: Element) -> dict[str, str]:
+    def _declared(self, element: Element, used: Element | None) -> dict[str, str]:
         found = {
             name: value.strip()
             for name, value in element.items()
             if name in _ATTRIBUTES and valid(name, value.strip())
         }
-        rules = self._of_rules.get(element, [])
+        rules = self._matching(used).get(element, [])
         text = element.get("style")
         if text:
             if text not in self._inline:
@@ -146,6 +149,15 @@ class Cascade:
         for rule in rules:
             found |= rule.important
         return found
+
+    def _matching(self, used: Element | None) -> dict[Element, list[Declared]]:
+        if self._rules is None:
+            return {}
+        if used not in self._of_rules:
+            root = self.root if used is None else used
+            found = self._rules.matching(root, used=used is not None)
+            self._of_rules[used] = dict(found)
+        return self._of_rules[used]
 
     def _add(self, rules: Any, sheet: str | list[Any], depth: int = 0) -> None:  # noqa: ANN401
         """Add the rules of a sheet, and of what is in it for screens."""
@@ -163,7 +175,7 @@ class Cascade:
                 and rule.lower_at_keyword == "media"
                 and depth < _DEEPEST
                 and rule.content is not None
-                and _on_screen(tinycss2.serialize(rule.prelude))
+                and _on_screen(as_text(rule.prelude))
             ):
                 self._add(rules, rule.content, depth + 1)
 
@@ -192,7 +204,7 @@ def _declarations(block: str | Iterable[Any]) -> Declared:
         name = one.name if custom(one.name) else one.lower_name
         if name not in {"font", "marker"} and name not in _NAMES and not custom(name):
             continue
-        value = tinycss2.serialize(one.value).strip()
+        value = as_text(one.value)
         for real, text in _longhands(name, value):
             if valid(real, text):
                 found[one.important][real] = text

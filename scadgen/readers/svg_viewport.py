@@ -38,12 +38,14 @@ class Page:
     ----------
     to_mm
         From user units to mm, y up, ``(3, 3) float``.
+    to_window
+        From user units to pixels of the window it is shown in, ``(3, 3) float``.
+    window
+        Width and height in those pixels; None if the file does not say both.
     size
         Width and height in user units, which percentages are of; None if the file says none.
     sheet
         Corners of the page in mm, ``(2, 2) float``; None if the file says none.
-    bounded
-        Whether nothing is shown beyond the page.
     dots
         User units in an inch.
     notes
@@ -51,9 +53,10 @@ class Page:
     """
 
     to_mm: Floats
+    to_window: Floats
+    window: tuple[float, float] | None
     size: tuple[float, float] | None
     sheet: Floats | None
-    bounded: bool
     dots: float
     notes: tuple[str, ...]
 
@@ -72,31 +75,25 @@ def page_of(root: Element, style: Style, reading: Reading) -> Page:
     pixel = 25.4 / dots
     if reading.scale is not None:
         notes = ()
+    window = None if sizes[0] is None or sizes[1] is None else (sizes[0], sizes[1])
     if box is None:
         scale = pixel if reading.scale is None else reading.scale
         to_mm = np.diag([scale, -scale, 1.0])
-        if sizes[0] is None or sizes[1] is None:
-            return Page(to_mm, None, None, bounded=False, dots=dots, notes=notes)
-        size = (sizes[0], sizes[1])
-        return Page(to_mm, size, _sheet(to_mm, 0.0, 0.0, *size), True, dots, notes)  # noqa: FBT003
+        sheet = None if window is None else _sheet(to_mm, 0.0, 0.0, *window)
+        return Page(to_mm, np.eye(3), window, window, sheet, dots, notes)
     x, y, width, height = box
-    fit = root.get("preserveAspectRatio") or ""
+    matrix, view = np.eye(3), box
     units = [size / extent for size, extent in zip(sizes, (width, height), strict=True) if size]
-    if not units:
-        scales, view = [1.0, 1.0], box
-    else:
+    if units:
         full = (sizes[0] or units[0] * width, sizes[1] or units[-1] * height)
-        matrix = fitted(box, fit, *full)
-        scales = [matrix[0, 0], matrix[1, 1]]
-        corner = -matrix[0, 2] / scales[0], -matrix[1, 2] / scales[1]
-        view = (*corner, full[0] / scales[0], full[1] / scales[1])
-    mm = [scale * pixel for scale in scales]
+        matrix = fitted(box, root.get("preserveAspectRatio") or "", *full)
+        across, down = matrix[0, 0], matrix[1, 1]
+        view = (-matrix[0, 2] / across, -matrix[1, 2] / down, full[0] / across, full[1] / down)
+    right, up = matrix[0, 0] * pixel, matrix[1, 1] * pixel
     if reading.scale is not None:
-        mm = [reading.scale] * 2
-    right, up = mm
+        right = up = reading.scale
     to_mm = np.array([[right, 0.0, -right * x], [0.0, -up, up * (y + height)], [0.0, 0.0, 1.0]])
-    bounded = sizes[0] is not None and sizes[1] is not None
-    return Page(to_mm, (width, height), _sheet(to_mm, *view), bounded, dots, notes)
+    return Page(to_mm, matrix, window, (width, height), _sheet(to_mm, *view), dots, notes)
 
 
 def view_box(element: Element) -> _Box | None:

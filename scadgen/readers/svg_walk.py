@@ -12,13 +12,14 @@ import shapely
 
 from scadgen.errors import InputError
 from scadgen.readers.svg_clip import region
-from scadgen.readers.svg_paint import HREF, linked
+from scadgen.readers.svg_elements import GROUPS, HREF, UNSEEN, VIEWPORTS, kind_of, wanted
+from scadgen.readers.svg_paint import linked
 from scadgen.readers.svg_place import Box, Place, measured, own_transform, viewport, visible, within
 from scadgen.readers.svg_properties import share
 from scadgen.readers.svg_shapes import SHAPES, length, outline
 from scadgen.readers.svg_style import Cascade
-from scadgen.readers.svg_transform import moved, transform
-from scadgen.readers.svg_xml import kind_of
+from scadgen.readers.svg_text import LARGEST
+from scadgen.readers.svg_transform import moved
 from scadgen.solid.affine import Floats
 
 if TYPE_CHECKING:
@@ -31,36 +32,8 @@ __all__ = ["Shape", "Walk"]
 #: What is wanted: what is painted, what clips, or what an element's box is around.
 Mode = Literal["paint", "clip", "box"]
 
-_GROUPS = {"svg", "g", "a", "symbol"}
-
-#: Groups that are viewports: what is beyond them is not shown.
-_VIEWPORTS = {"svg", "symbol"}
-
-#: Never drawn where they stand.
-_UNSEEN = {
-    "animate",
-    "animateMotion",
-    "animateTransform",
-    "clipPath",
-    "color-profile",
-    "defs",
-    "desc",
-    "filter",
-    "font",
-    "font-face",
-    "linearGradient",
-    "marker",
-    "mask",
-    "metadata",
-    "pattern",
-    "radialGradient",
-    "script",
-    "set",
-    "style",
-    "symbol",
-    "title",
-    "view",
-}
+#: Corners of what clips, each time that something is clipped, for each segment that is allowed.
+_CLIPPING = 20
 
 #: Uses of uses, and clip paths of clip paths, go this deep; deeper ones go in circles.
 _DEEPEST = 8
@@ -100,8 +73,11 @@ class Walk:
     strange: Counter[str] = field(default_factory=Counter)
     #: What shapes have that is not done, by name.
     undone: Counter[str] = field(default_factory=Counter)
+    #: How many elements are not shown because their style says so.
+    hidden: int = 0
     _segments: int = 0
     _visited: int = 0
+    _clipping: int = 0
     _clips: dict[tuple[Element, bytes], BaseGeometry] = field(default_factory=dict)
 
     def shapes(
@@ -129,7 +105,7 @@ class Walk:
             element, outer = stack.pop()
             self.count(elements=1)
             kind = kind_of(element)
-            if kind is None or (kind in _UNSEEN and outer.use is None) or not _wanted(element):
+            if kind is None or (kind in UNSEEN and outer.use is None) or not wanted(element):
                 continue
             here = self._enter(kind, element, outer, mode)
             if here is None:
@@ -137,10 +113,12 @@ class Walk:
             if kind in SHAPES:
                 if mode == "box" or visible(here):
                     yield self._shape(kind, element, here)
-            elif kind in _GROUPS:
+                else:
+                    self.hidden += mode == "paint"
+            elif kind in GROUPS:
                 stack.extend((child, here) for child in reversed(element))
             elif kind == "switch":
-                first = [c for c in element if kind_of(c) is not None and _wanted(c)][:1]
+                first = [c for c in element if kind_of(c) is not None and wanted(c)][:1]
                 stack.extend((child, here) for child in first)
             elif kind == "use":
                 stack.extend(self._used(element, here))
@@ -159,26 +137,39 @@ class Walk:
             msg = f"more than {self.most} segments, unless more are allowed (--most)"
             raise InputError(msg)
 
+    def count_clipping(self, clip: BaseGeometry) -> None:
+        """Stop before clipping takes all day."""
+        self._clipping += int(shapely.count_coordinates(clip))
+        if self._clipping > _CLIPPING * self.most:
+            msg = (
+                f"clip paths: more than {_CLIPPING * self.most} corners in all (--most allows more)"
+            )
+            raise InputError(msg)
+
     def _enter(self, kind: str, element: Element, outer: Place, mode: Mode) -> Place | None:
         """Where the inside of an element is; None if nothing of it is shown."""
-        style = self.cascade.style(element, outer.style)
-        measure = measured(style, outer.measure, root=element is self.cascade.root)
-        if style.get("display") == "none" and kind != "symbol":
-            return None
-        if mode == "paint" and share(style.get("opacity", "1")) <= 0:
+        root = element is self.cascade.root and outer.use is None
+        style = self.cascade.style(element, outer.style, outer.used)
+        measure = measured(style, outer.measure, root=root)
+        clear = mode == "paint" and share(style.get("opacity", "1")) <= 0
+        if clear or (style.get("display") == "none" and kind != "symbol"):
+            self.hidden += mode == "paint"
             return None
         here = replace(outer, style=style, measure=measure, use=None)
-        matrix = own_transform(element, here, lambda: self._box(kind, element, here))
+        matrix = (
+            None if root else own_transform(element, here, lambda: self._box(kind, element, here))
+        )
         if matrix is not None:
             here = replace(here, matrix=outer.matrix @ matrix)
+            _check_size(here)
         if mode != "box":
             here = self._clipped(kind, element, here)
         if mode == "paint":
             self.undone.update(
                 name for name in ("mask", "filter") if style.get(name, "none") != "none"
             )
-        if kind in _VIEWPORTS and element is not self.cascade.root:
-            return viewport(kind, element, here, outer.use)
+        if kind in VIEWPORTS and not root:
+            return viewport(element, here, outer.use)
         return here
 
     def _shape(self, kind: str, element: Element, here: Place) -> Shape:
@@ -204,12 +195,13 @@ class Walk:
             raise InputError(msg)
         _check_depth(here, f"use of {link[:60]!r}", "uses")
         kind = kind_of(target)
-        if kind is None or (kind in _UNSEEN and kind != "symbol"):
+        if kind is None or (kind in UNSEEN and kind != "symbol"):
             self.strange[f"used {kind or 'foreign element'}"] += 1
             return []
         x, y = (length(name, element, here.style, here.measure) for name in ("x", "y"))
         matrix = here.matrix @ moved(x, y)
-        return [(target, replace(here, matrix=matrix, depth=here.depth + 1, use=element))]
+        inside = replace(here, matrix=matrix, depth=here.depth + 1, use=element, used=target)
+        return [(target, inside)]
 
     def _clipped(self, kind: str, element: Element, here: Place) -> Place:
         """The place with what the clip path of an element leaves of it."""
@@ -229,31 +221,37 @@ class Walk:
         if key not in self._clips:
             _check_depth(here, f"clip path {link[0][:60]!r}", "clip paths")
             self._clips[key] = self._region(target, replace(here, matrix=matrix))
+        self.count_clipping(self._clips[key])
         return within(here, self._clips[key])
 
     def _region(self, path: Element, here: Place) -> BaseGeometry:
         """What a clip path shows, in mm."""
         parent = self.cascade.in_place(path)
-        text = path.get("transform")
-        matrix = here.matrix @ transform(text) if text else here.matrix
-        inside = replace(here, matrix=matrix, style=parent, clip=None, depth=here.depth + 1)
-        regions = [
-            region(shape.lines, shape.place.style.get("clip-rule", "nonzero"))
-            if shape.place.clip is None
-            else region(shape.lines, shape.place.style.get("clip-rule", "nonzero")).intersection(
-                shape.place.clip
-            )
-            for shape in self.shapes(path, inside, "clip")
-        ]
+        turn = own_transform(path, replace(here, style=parent), lambda: ((0.0, 0.0), (0.0, 0.0)))
+        matrix = here.matrix if turn is None else here.matrix @ turn
+        inside = replace(
+            here, matrix=matrix, style=parent, clip=None, depth=here.depth + 1, used=None
+        )
+        # A group in it clips nothing, nor one that it uses.
+        parts = [child for child in path if kind_of(child) in SHAPES | {"use"}]
+        regions = []
+        for shape in self.shapes(parts, inside, "clip"):
+            whole = region(shape.lines, shape.place.style.get("clip-rule", "nonzero"))
+            clip = shape.place.clip
+            regions.append(whole if clip is None else whole.intersection(clip))
         whole = shapely.union_all(regions) if regions else shapely.Polygon()
         outer = self._clipped("clipPath", path, replace(inside, style=parent)).clip
         return whole if outer is None else whole.intersection(outer)
 
     def _box(self, kind: str, element: Element, here: Place) -> Box:
         """Corner and size of the box around an element, in its user units."""
+        if not abs(np.linalg.det(here.matrix[:2, :2])) > 0:
+            return (0.0, 0.0), (0.0, 0.0)
         if kind in SHAPES:
             shapes = [self._shape(kind, element, here)]
         else:
+            _check_depth(here, f"box around {kind}", "boxes")
+            here = replace(here, depth=here.depth + 1)
             inside = self._used(element, here) if kind == "use" else []
             inside = inside or [(child, here) for child in element]
             shapes = [s for child, place in inside for s in self.shapes([child], place, "box")]
@@ -272,11 +270,7 @@ def _check_depth(here: Place, what: str, kind: str) -> None:
         raise InputError(msg)
 
 
-def _wanted(element: Element) -> bool:
-    """Whether an element is for who reads it: someone who knows no extensions, in English."""
-    if element.get("requiredExtensions") is not None:
-        return False
-    tongues = element.get("systemLanguage")
-    return tongues is None or any(
-        tongue.strip().lower().split("-")[0] == "en" for tongue in tongues.split(",")
-    )
+def _check_size(here: Place) -> None:
+    if not (np.abs(here.matrix) <= LARGEST).all():
+        msg = "transforms: make a number that is too large"
+        raise InputError(msg)

@@ -9,15 +9,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NoReturn
 
 from scadgen.errors import InputError
+from scadgen.readers.svg_elements import NAMESPACE
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
     from defusedxml.ElementTree import XMLParser
 
-__all__ = ["NAMESPACE", "kind_of", "parse_svg"]
-
-NAMESPACE = "{http://www.w3.org/2000/svg}"
+__all__ = ["parse_svg"]
 
 #: What a document defines may fill this many characters, wherever it is used.
 _MOST_DEFINED = 16_000_000
@@ -52,14 +51,6 @@ def parse_svg(data: bytes) -> tuple[Element, int]:
             return root, sheets.count("xml-stylesheet")
         msg = f"is not SVG: its first element is {root.tag[:60]!r}"
     raise InputError(msg)
-
-
-def kind_of(element: Element) -> str | None:
-    """Name of an SVG element; None for what belongs to an editor."""
-    tag = element.tag
-    if tag.startswith("{") and not tag.startswith(NAMESPACE):
-        return None
-    return tag.removeprefix(NAMESPACE)
 
 
 def _reader(data: bytes) -> XMLParser:
