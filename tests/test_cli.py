@@ -162,7 +162,7 @@ def test_kit_takes_every_option_and_its_command_makes_it_again(run, tmp_path, mo
 def test_the_command_of_a_kit_has_flags_as_they_are_typed(run, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "rail.svg").write_text(
-        '<svg xmlns="http://www.w3.org/2000/svg" width="9mm" height="9mm" viewBox="0 0 9 9">'
+        '<svg xmlns="http://www.w3.org/2000/svg" width="150mm" height="9mm" viewBox="0 0 150 9">'
         '<path stroke="black" d="M0 0 H150"/><text x="9" y="9">rail</text></svg>'
     )
     flags = ("--no-split", "--skip-unknown", "--components", "--unchecked")

@@ -27,7 +27,8 @@ NET = ROOT / "examples" / "frames" / "net.json"
 SVG = "{http://www.w3.org/2000/svg}"
 
 #: A square of 100 mm, a line across that does not quite reach, and one down that goes too far.
-SKETCH = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 120" height="120mm">
+SKETCH = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 120" height="120mm"
+ fill="none" stroke="black">
 <rect x="0" y="0" width="100" height="100"/><path d="M0 50H99.995"/><path d="M50 0V120"/></svg>"""
 
 
@@ -199,7 +200,7 @@ def test_angles_that_no_ring_holds_are_told_and_loose_ends_get_caps(run, said, t
     # 1 in 20 is 2.862 degrees: R > 1 / (2 sin 1.431) - 1/2 = 19.52; 2 asin(1 / 17) = 6.745.
     path.write_text(
         '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 10" width="200mm" height="10mm">'
-        '<path d="M0 0H200L0 10"/></svg>'
+        '<path fill="none" stroke="black" d="M0 0H200L0 10"/></svg>'
     )
     fan = said(path, "--side", 10, code=1)
     assert fan["largest_side"] is None

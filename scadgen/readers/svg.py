@@ -8,12 +8,13 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from scadgen.readers.curves import flattened
 from scadgen.readers.reading import Read, Reading, from_segments, load, unknown
-from scadgen.readers.svg_clip import clipped, covered
+from scadgen.readers.svg_clip import Paint, clipped, covered
 from scadgen.readers.svg_elements import kind_of
 from scadgen.readers.svg_paint import MARKERS, Paints
 from scadgen.readers.svg_place import outermost
@@ -22,6 +23,9 @@ from scadgen.readers.svg_viewport import Page, page_of
 from scadgen.readers.svg_walk import Shape, Walk
 from scadgen.readers.svg_xml import parse_svg
 from scadgen.solid.affine import Floats
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
 
 __all__ = ["read_svg"]
 
@@ -42,8 +46,9 @@ _UNDONE = {
 _TOLD = {
     "background": "filled rectangle as large as the page left out, as background",
     "background read": "filled rectangle as large as the page, with nothing else in it",
-    "beyond": "shapes left out beyond the page, a viewport or a clip path",
-    "cut": "shapes cut where the page, a viewport or a clip path ends",
+    "beyond": "shapes beyond the page left out, as browsers do (a larger page shows them)",
+    "cut": "shapes cut at the edge of the page, as browsers do (a larger page shows them whole)",
+    "clipped": "shapes that clip paths or viewports hide or cut",
     "closed": "filled outlines closed by a straight line",
     "bare": "shapes without fill and stroke left out",
     "bare read": "nothing in it is painted; shapes without fill and stroke read all the same",
@@ -60,6 +65,8 @@ class _Outlines:
     paints: Paints
     walk: Walk
     tolerance: float
+    #: What is shown of the page; None for everything.
+    shown: BaseGeometry | None
     lines: list[Floats] = field(default_factory=list)
     #: Outlines of shapes that are not painted, and of backgrounds.
     bare: list[Floats] = field(default_factory=list)
@@ -84,20 +91,8 @@ class _Outlines:
             return
         self.undone["pattern"] += self.paints.has_pattern(style)
         self.undone["marker"] += any(style.get(name, "none") != "none" for name in MARKERS)
-        if shape.place.clip is not None and not covered(lines, shape.place.clip):
-            self.walk.count_clipping(shape.place.clip)
-            rule = style.get("fill-rule", "nonzero")
-            left = clipped(
-                lines,
-                shape.place.clip,
-                filled=filled,
-                stroked=stroked,
-                rule=rule,
-                tolerance=self.tolerance,
-            )
-            if left is not None:
-                self.told["cut" if left else "beyond"] += 1
-                lines = left
+        paint = Paint(filled, stroked, style.get("fill-rule", "nonzero"))
+        lines = self._shown(lines, shape.place.clip, paint)
         if not stroked and not self.lines and self._covers(lines):
             self.told["background"] += 1
             self.background += lines
@@ -106,6 +101,17 @@ class _Outlines:
         if shape.curved:
             self.curved += 1
             self.chords += sum(len(line) - 1 for line in lines)
+
+    def _shown(self, lines: list[Floats], clip: BaseGeometry | None, paint: Paint) -> list[Floats]:
+        """What clipping leaves of lines."""
+        if clip is None or covered(lines, clip):
+            return lines
+        self.walk.count_clipping(clip)
+        left = clipped(lines, clip, paint, self.tolerance)
+        if left is not lines:
+            off_page = self.shown is not None and not covered(lines, self.shown)
+            self.told[("cut" if left else "beyond") if off_page else "clipped"] += 1
+        return left
 
     def _closed(self, line: Floats) -> Floats:
         """A line around what is filled: that goes on straight to where it began."""
@@ -121,10 +127,10 @@ class _Outlines:
             return False
         near = _NEAR_EDGE * float((sheet[1] - sheet[0]).max())
         low, high = lines[0].min(axis=0), lines[0].max(axis=0)
-        on_sides = (np.abs(lines[0] - low) <= near) | (np.abs(lines[0] - high) <= near)
-        return bool(
-            (low <= sheet[0] + near).all() and (high >= sheet[1] - near).all() and on_sides.all()
-        )
+        (x, y), (next_x, next_y) = lines[0].T, np.roll(lines[0], -1, axis=0).T
+        area = abs(float((x * next_y - next_x * y).sum())) / 2
+        full = area >= (1 - _NEAR_EDGE) * float(np.prod(high - low))
+        return full and bool((low <= sheet[0] + near).all() and (high >= sheet[1] - near).all())
 
 
 def read_svg(path: Path, reading: Reading) -> Read:
@@ -141,9 +147,10 @@ def read_svg(path: Path, reading: Reading) -> Read:
     by_id = {key: e for e in reversed([*root.iter()]) if (key := e.get("id")) is not None}
     style = cascade.style(root, {})
     page = page_of(root, style, reading)
+    place = outermost(root, page, style)
     walk = Walk(cascade, by_id, reading.flatten, reading.most)
-    found = _Outlines(page, Paints(by_id, cascade), walk, reading.tolerance)
-    for shape in walk.shapes([root], outermost(root, page, style)):
+    found = _Outlines(page, Paints(by_id, cascade), walk, reading.tolerance, place.clip)
+    for shape in walk.shapes([root], place):
         found.add(shape)
     notes = [*page.notes, *_undone(walk.undone + found.undone, sheets + cascade.outside)]
     lines, told = found.lines, found.told

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import shapely
@@ -15,7 +15,7 @@ from scadgen.solid.affine import Floats
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["clipped", "covered", "region"]
+__all__ = ["Paint", "clipped", "covered", "region"]
 
 #: Outlines that clip or are clipped cross themselves this often, at most.
 _MOST_CROSSINGS = 20_000
@@ -25,6 +25,14 @@ _MOST_STEPS = 50_000_000
 
 #: Lines that go along the edge of what is shown, this near to it, are shown, in mm.
 _NEAR = 1e-6
+
+
+class Paint(NamedTuple):
+    """How a shape is painted: whether it is filled, by which rule, and whether it is stroked."""
+
+    filled: bool
+    stroked: bool
+    rule: str
 
 
 def region(lines: Sequence[Floats], rule: str) -> BaseGeometry:
@@ -75,15 +83,9 @@ def covered(lines: Sequence[Floats], clip: BaseGeometry) -> bool:
 
 
 def clipped(
-    lines: Sequence[Floats],
-    clip: BaseGeometry,
-    *,
-    filled: bool,
-    stroked: bool,
-    rule: str,
-    tolerance: float,
-) -> list[Floats] | None:
-    """What clipping leaves of the outlines of a shape; None if it leaves all.
+    lines: list[Floats], clip: BaseGeometry, paint: Paint, tolerance: float
+) -> list[Floats]:
+    """What clipping leaves of the outlines of a shape; they themselves if it leaves all.
 
     Of a shape that is filled these are the outlines of what is still filled, with pieces of
     the edge of what clips it.
@@ -94,23 +96,23 @@ def clipped(
         Outlines of the shape, each ``(k, 2) float``, in mm.
     clip
         What is shown.
-    filled, stroked, rule
+    paint
         How the shape is painted.
     tolerance
         Lines that are no further outside are left as they are; shorter ones are left out.
     """
     drawn = shapely.MultiLineString([shapely.LineString(line) for line in lines])
     if clip.buffer(tolerance, join_style="mitre").covers(drawn):
-        return None
+        return lines
     kept: list[BaseGeometry] = []
-    if filled:
-        kept.append(region(lines, rule).intersection(clip).boundary)
-    if stroked:
+    if paint.filled:
+        kept.append(region(lines, paint.rule).intersection(clip).boundary)
+    if paint.stroked:
         strokes = drawn.intersection(clip)
         along = drawn.intersection(clip.buffer(_NEAR, join_style="mitre"))
         if along.length > strokes.length + tolerance:
             strokes = along
-        kept.append(strokes.difference(kept[0].buffer(2 * _NEAR)) if filled else strokes)
+        kept.append(strokes.difference(kept[0].buffer(2 * _NEAR)) if paint.filled else strokes)
     parts = [part for whole in kept for part in _lines_of(whole) if part.length > tolerance]
     return [shapely.get_coordinates(part) for part in parts]
 

@@ -14,7 +14,7 @@ from scadgen.readers.svg_properties import as_text
 __all__ = ["Rules"]
 
 #: Elements that are compared with selectors, at most, each time that one is.
-_MOST_STEPS = 5_000_000
+_MOST_STEPS = 2_000_000
 
 #: A selector is at most this long: it is compiled to an expression of Python.
 _LONGEST = 2_000

@@ -65,7 +65,14 @@ def outline(
         ends = [length(name, element, {}, measure) for name in ("x1", "y1", "x2", "y2")]
         return [np.array(ends).reshape(2, 2)], False
     path = _path(element, style) if kind == "path" else _round(kind, element, style, measure)
-    return polyline(path, within, most), is_curved(path)
+    curved = is_curved(path)
+    lines = polyline(path, within, most)
+    return [_moving(line) for line in lines] if curved else lines, curved
+
+
+def _moving(line: Floats) -> Floats:
+    """A line without the steps of no length that closing it or rounding a corner makes."""
+    return np.asarray(line[np.r_[True, (np.diff(line, axis=0) != 0).any(axis=1)]])
 
 
 def length(
