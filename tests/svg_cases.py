@@ -387,4 +387,103 @@ CASES = {
         'x="30" y="30" width="40" height="30" fill="none" stroke="#000" stroke-width="1"/>',
         pen=False,
     ),
+    "capitals": drawing(
+        "<style>.A{FILL:NONE;Stroke:#000}.B{DISPLAY:None}</style>"
+        '<path class="A" d="M10 10H90V50"/><path class="A B" d="M10 60H90"/>'
+        '<path fill="None" stroke="BLACK" d="M10 70H90"/>'
+        '<path VISIBILITY="hidden" fill="none" stroke="black" d="M10 80H90"/>'
+        '<path visibility="HIDDEN" stroke="black" d="M10 90H90"/>',
+        pen=False,
+    ),
+    "comments in sheets": drawing(
+        '<style><!-- .a{fill:none;stroke:#000} --></style><path class="a" d="M10 10H90V50"/>'
+        '<defs><style>.b{stroke:#00f}</style></defs><path class="b" d="M10 60H90"/>',
+        pen=False,
+    ),
+    "rules of names": drawing(
+        '<style>/* x */@charset "utf-8";@namespace svg '
+        "url(http://www.w3.org/2000/svg);svg|path{stroke:#000}path,;{stroke:none}</style>"
+        '<path class="b" d="M10 60H90"/>',
+        pen=False,
+    ),
+    "clip paths by name": drawing(
+        '<clipPath id="c"><rect width="50" height="100"/></clipPath>'
+        '<use href="#p" clip-path="url(#c)" y="20"/><path id="p" d="M10 10H90"/>'
+        '<path clip-path="url(&quot;#c&quot;)" d="M10 50H90"/>'
+        '<path style="clip-path: url( \'#c\' ) " d="M10 60H90"/>',
+    ),
+    "view boxes below 0": drawing(
+        '<svg x="1cm" y="10%" width="5em" height="50%" viewBox="-10 -10 40 40">'
+        '<rect width="50%" height="50%"/><circle cx="10" cy="10" r="10%"/></svg>',
+    ),
+    "shares in uses": drawing(
+        '<defs><symbol id="s" viewBox="0 0 20 10" overflow="visible">'
+        '<rect width="20" height="10"/></symbol></defs>'
+        '<use href="#s" x="10%" y="10%" width="40%" height="40%"/>'
+        '<use href="#s" x="50" y="60" width="40" height="5" transform="rotate(10 50 60)"/>'
+        '<g transform="scale(.5)"><use href="#s" x="10" y="160" width="50" height="25"/></g>',
+    ),
+    "uses of uses": drawing(
+        '<defs><g id="a"><rect width="8" height="8"/></g><g id="b"><use href="#a"/>'
+        '<use href="#a" x="10"/></g></defs><use href="#b" x="10" y="10"/>'
+        '<use href="#b" transform="translate(50 50) rotate(30)"/>',
+    ),
+    "stops that are clear": drawing(
+        '<style>.s{stop-opacity:0}</style><radialGradient id="g"><stop class="s"/>'
+        '<stop offset="1" style="stop-color:transparent"/></radialGradient>'
+        '<rect x="10" y="10" width="30" height="30" fill="url(#g)"/>'
+        '<rect x="50" y="50" width="30" height="30" fill="#00f"/>',
+        pen=False,
+    ),
+    "background with a rim": drawing(
+        '<rect width="100" height="100" fill="white" stroke="white"/><path d="M10 10H90V90"/>',
+    ),
+    "large radii": drawing(
+        '<g><rect x="10" y="10" width="30" height="20" rx="50"/>'
+        '<rect x="50" y="10" width="30" height="20" rx="50%" ry="2"/>'
+        '<rect x="10" y="50" width="30" height="20" ry="50"/>'
+        '<rect x="50" y="50" width="30" height="20" rx="0" ry="9"/></g>',
+    ),
+    "clipped fillings": drawing(
+        '<clipPath id="c"><path d="M50 10L90 90H10Z"/></clipPath><g clip-path="url(#c)">'
+        '<rect x="0" y="50" width="100" height="20" fill="#00f"/>'
+        '<circle cx="50" cy="40" r="25"/></g>',
+    ),
+    "clipped along its edge": drawing(
+        '<clipPath id="c"><rect x="20" y="20" width="50" height="50"/></clipPath>'
+        '<rect clip-path="url(#c)" x="20" y="20" width="50" height="50" fill="#88f" '
+        'stroke="#000"/><rect clip-path="url(#c)" x="30" y="20" width="10" height="20"/>',
+    ),
+    "cut by a viewport": drawing(
+        '<svg x="10" y="10" width="50" height="50" viewBox="0 0 10 10">'
+        '<circle cx="9" cy="5" r="3" fill="#00f"/></svg>',
+        pen=False,
+    ),
+    "selectors of level 4": drawing(
+        "<style>path:nth-of-type(2n){stroke:#000}g:has(circle) path{stroke:#00f}"
+        "path:is(.a,.b){stroke:#080}:where(.c){stroke:#000}[class~=d]{stroke:#000}"
+        '[id^="q"]{stroke:#000}</style><path d="M10 10H90"/><path d="M10 20H90"/><g><circle/>'
+        '<path d="M10 30H90"/></g><path class="b" d="M10 40H90"/>'
+        '<path class="c" d="M10 50H90"/><path class="x d" d="M10 60H90"/>'
+        '<path id="q1" d="M10 70H90"/>',
+        pen=False,
+    ),
+    "smooth curves 1": drawing(
+        '<path d="M35 57zV39.60a20.64 6.64 1.19 112.03,-12.33a18.52 18.74 35.74 '
+        "005.39,14.72ZT69.30 63.71H22.75m-18.29,11.20S47.82 67.51 80.31 "
+        "67.13t-4.20,12.04A29.10 8.35 32.90 0049.59 30.64t11.16,14.21t0.29,-4.57q1.36,-3.70 "
+        '-10.70,-6.53"/>',
+    ),
+    "smooth curves 2": drawing(
+        '<path d="M44 61zh4.81ZS44.50 67.62 29.01 34.09S51.69 53.87 10.92 '
+        "43.22m-7.40,-4.94m5.29,-17.60Q47.30 64.34 38.21 66.56a5.55 6.51 60.84 "
+        "115.12,-8.05Q24.19 24.82 70.65 77.51S34.03 40.17 71.78 "
+        '12.15m7.35,-14.74Zc6.15,-9.22 -6.89,7.12 5.98,-16.12"/>',
+    ),
+    "smooth curves 3": drawing(
+        '<path d="M39 35L52.00 43.10h-6.35S87.76 53.28 74.92 14.91c-12.11,1.39 12.67,-13.15 '
+        "11.67,16.87V75.88L49.00 55.67T13.99 31.71S59.45 51.57 14.08 35.85L78.56 "
+        "72.02l-15.01,-17.26l14.18,-16.55Za12.90 12.86 31.62 11-5.57,-12.36Q44.30 20.21 "
+        '10.28 67.84"/>',
+    ),
 }

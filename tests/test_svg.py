@@ -163,8 +163,8 @@ def test_what_is_not_done_is_told(svg):
     )
     (note,) = svg(body).notes
     assert note == (
-        "not done, shapes are read without it: clip paths that are not in the file's own "
-        "clipPath: 1, filters: 1, markers: 1, masks: 1, patterns: 1"
+        "not done, shapes are read without it: clip paths that are text or said by a style "
+        "alone: 1, filters: 1, markers: 1, masks: 1, patterns: 1"
     )
 
 
@@ -320,7 +320,7 @@ def slant(a, _):
 
 
 def stretch(a, b):
-    return f"scale({a} {b})", f"scale({a}, {b})"
+    return f"scale({a / 10} {b / 10})", f"scale({a / 10}, {b / 10})"
 
 
 #: Transforms as an attribute and as a property.

@@ -35,7 +35,7 @@ _NEAR_EDGE = 0.01
 
 #: What is told of what is not done.
 _UNDONE = {
-    "clip-path": "clip paths that are not in the file's own clipPath",
+    "clip-path": "clip paths that are text or said by a style alone",
     "filter": "filters",
     "marker": "markers",
     "mask": "masks",
@@ -93,7 +93,8 @@ class _Outlines:
         self.undone["marker"] += any(style.get(name, "none") != "none" for name in MARKERS)
         paint = Paint(filled, stroked, style.get("fill-rule", "nonzero"))
         lines = self._shown(lines, shape.place.clip, paint)
-        if not stroked and not self.lines and self._covers(lines):
+        rimmed = stroked and style.get("stroke") != style.get("fill")
+        if not rimmed and not self.lines and self._covers(lines):
             self.told["background"] += 1
             self.background += lines
             return

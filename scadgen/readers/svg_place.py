@@ -133,7 +133,7 @@ def viewport(element: Element, here: Place, use: Element | None) -> Place | None
         sizes[name] = next((text for text in asked if text and text.strip() != "auto"), "100%")
     clips = here.style.get("overflow", "hidden") in {"hidden", "scroll", "clip"}
     box = view_box(element)
-    if here.measure.page is None and not (clips and box) and "100%" in sizes.values():
+    if here.measure.page is None and box is None and "100%" in sizes.values():
         return replace(here, matrix=matrix)
     width, height = (here.measure.length(name, text) for name, text in sizes.items())
     if min(width, height) <= 0:

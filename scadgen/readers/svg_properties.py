@@ -7,7 +7,17 @@ from collections.abc import Callable
 from functools import cache
 from typing import Any
 
-__all__ = ["GEOMETRY", "INHERITED", "KNOWN", "alpha", "as_text", "custom", "share", "valid"]
+__all__ = [
+    "GEOMETRY",
+    "INHERITED",
+    "KNOWN",
+    "alpha",
+    "as_text",
+    "custom",
+    "plain",
+    "share",
+    "valid",
+]
 
 #: Properties that shapes and viewports have as attributes without units, too.
 GEOMETRY = frozenset({"x", "y", "width", "height", "cx", "cy", "r", "rx", "ry"})
@@ -35,7 +45,8 @@ INHERITED = frozenset(
 _NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
 _SHARE = re.compile(rf"({_NUMBER})(%?)")
 _LENGTH = re.compile(rf"{_NUMBER}(?:%|[a-zA-Z]+)|[-+]?0+(?:\.0*)?|auto")
-_URL = re.compile(r"url\(.*\)", re.DOTALL)
+_WORD = re.compile(r"[a-zA-Z-]+")
+_URL = re.compile(r"url\(.*\)", re.DOTALL | re.IGNORECASE)
 _PAINT_URL = re.compile(r"url\([^)]*\)\s*(.*)", re.DOTALL)
 
 
@@ -66,6 +77,11 @@ def alpha(color: str) -> float | None:
     if found is None:
         return None
     return 1.0 if isinstance(found, str) else float(found.alpha)
+
+
+def plain(name: str, value: str) -> str:
+    """A value as it is compared: words are the same in capitals."""
+    return value.lower() if _WORD.fullmatch(value) and not custom(name) else value
 
 
 def share(text: str) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -19,6 +20,9 @@ _MOST_STEPS = 2_000_000
 #: A selector is at most this long: it is compiled to an expression of Python.
 _LONGEST = 2_000
 
+#: A prefix and what it stands for.
+_PREFIX = re.compile(r"([\w-]+)\s+(?:url\()?\s*[\"']?([^\"'()\s]*)[\"']?\s*\)?")
+
 
 class Rules:
     """Rules by their selectors; the payload of each is the caller's."""
@@ -26,10 +30,17 @@ class Rules:
     def __init__(self) -> None:
         self._matcher = Matcher()
         self._steps = 0
+        self._namespaces: dict[str, str] = {}
 
     def __bool__(self) -> bool:
         """Whether there are any."""
         return bool(self._matcher.order)
+
+    def name(self, prelude: str) -> None:
+        """Take a prefix of names, as a rule says it; others stand for names of any kind."""
+        found = _PREFIX.fullmatch(prelude)
+        if found is not None:
+            self._namespaces[found[1]] = found[2]
 
     def add(self, prelude: list[Any], payload: object) -> None:
         """Add a rule; one whose selectors nobody understands is none, as in browsers.
@@ -46,7 +57,7 @@ class Rules:
             msg = f"style sheet: selector {text[:40]!r} has more than {_LONGEST} characters"
             raise InputError(msg)
         try:
-            selectors = compile_selector_list(text)
+            selectors = compile_selector_list(text, self._namespaces)
         except (SelectorError, NotImplementedError, SyntaxError, RecursionError, MemoryError):
             return
         for selector in selectors:

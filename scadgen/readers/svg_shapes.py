@@ -10,6 +10,7 @@ import numpy as np
 
 from scadgen.errors import InputError
 from scadgen.readers.curves import is_curved, polyline
+from scadgen.readers.svg_path import path_of
 from scadgen.readers.svg_text import Measure, numbers
 from scadgen.solid.affine import Floats
 
@@ -19,9 +20,6 @@ if TYPE_CHECKING:
 __all__ = ["SHAPES", "length", "outline"]
 
 SHAPES = frozenset({"line", "polyline", "polygon", "path", "rect", "circle", "ellipse"})
-
-#: What path data is made of.
-_PATH = re.compile(r"\s*[Mm][MmZzLlHhVvCcSsQqTtAa0-9eE+\-.,\s]*")
 
 #: Path data in a style sheet.
 _CSS_PATH = re.compile(r"path\(\s*(?:\w+\s*,)?\s*([\"'])(.*)\1\s*\)", re.DOTALL)
@@ -90,23 +88,12 @@ def length(
 
 
 def _path(element: Element, style: Mapping[str, str]) -> Any:  # noqa: ANN401 -- svgelements has no types
-    import svgelements
-
     data = element.get("d") or ""
     styled = style.get("d")
     if styled is not None:
         found = _CSS_PATH.fullmatch(styled)
         data = found[2] if found else "" if styled == "none" else data
-    if not data.strip() or data.strip() == "none":
-        return svgelements.Path()
-    if not _PATH.fullmatch(data):
-        msg = f"path {data[:60]!r}: is no path data"
-        raise InputError(msg)
-    try:
-        return svgelements.Path(data)
-    except (ValueError, IndexError, TypeError, ZeroDivisionError, AttributeError):
-        msg = f"path {data[:60]!r}: is no path data"
-        raise InputError(msg) from None
+    return path_of("" if data.strip() == "none" else data)
 
 
 def _round(kind: str, element: Element, style: Mapping[str, str], measure: Measure) -> Any:  # noqa: ANN401 -- as above

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from scadgen.errors import InputError
 from scadgen.readers.svg_elements import kind_of
-from scadgen.readers.svg_properties import GEOMETRY, INHERITED, KNOWN, as_text, custom, valid
+from scadgen.readers.svg_properties import GEOMETRY, INHERITED, KNOWN, as_text, custom, plain, valid
 
 if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
@@ -105,6 +105,7 @@ class Cascade:
             if name in variables:
                 continue
             value = _replaced(text, style) if "var(" in text else text
+            value = value and plain(name, value)
             if value is None or value in {"unset", "revert"} or not valid(name, value):
                 if value not in {"unset", "revert"} and "var(" not in text:
                     continue
@@ -134,9 +135,9 @@ class Cascade:
 
     def _declared(self, element: Element, used: Element | None) -> dict[str, str]:
         found = {
-            name: value.strip()
-            for name, value in element.items()
-            if name in _ATTRIBUTES and valid(name, value.strip())
+            name: value
+            for name, text in element.items()
+            if name in _ATTRIBUTES and valid(name, value := plain(name, text.strip()))
         }
         rules = self._matching(used).get(element, [])
         text = element.get("style")
@@ -168,6 +169,8 @@ class Cascade:
                 declared = _declarations(rule.content)
                 if declared.usual or declared.important:
                     rules.add(rule.prelude, declared)
+            elif rule.type == "at-rule" and rule.lower_at_keyword == "namespace":
+                rules.name(as_text(rule.prelude))
             elif rule.type == "at-rule" and rule.lower_at_keyword == "import":
                 self.outside += 1
             elif (
@@ -205,7 +208,7 @@ def _declarations(block: str | Iterable[Any]) -> Declared:
         if name not in {"font", "marker"} and name not in _NAMES and not custom(name):
             continue
         value = as_text(one.value)
-        for real, text in _longhands(name, value):
+        for real, text in _longhands(name, plain(name, value)):
             if valid(real, text):
                 found[one.important][real] = text
     return Declared(*found)

@@ -189,14 +189,14 @@ class Walk:
     def _used(self, element: Element, here: Place) -> list[tuple[Element, Place]]:
         """What a use shows, and where."""
         link = element.get("href") or element.get(HREF) or ""
-        target = self.by_id.get(link.removeprefix("#"))
-        if not link.startswith("#") or target is None:
+        if not link.startswith("#"):
             msg = f"use of {link[:60]!r}: must be the id of an element in the same file"
             raise InputError(msg)
         _check_depth(here, f"use of {link[:60]!r}", "uses")
-        kind = kind_of(target)
-        if kind is None or (kind in UNSEEN and kind != "symbol"):
-            self.strange[f"used {kind or 'foreign element'}"] += 1
+        target = self.by_id.get(link[1:])
+        kind = "nothing" if target is None else kind_of(target) or "foreign element"
+        if target is None or kind_of(target) is None or kind in UNSEEN - {"symbol"}:
+            self.strange[f"used {kind}"] += 1
             return []
         x, y = (length(name, element, here.style, here.measure) for name in ("x", "y"))
         matrix = here.matrix @ moved(x, y)
@@ -212,6 +212,9 @@ class Walk:
             return here
         target = self.by_id.get(link[0])
         if target is None or kind_of(target) != "clipPath":
+            return here
+        if any(kind_of(child) == "text" for child in target):
+            self.undone["clip-path"] += 1
             return here
         matrix = here.matrix
         if target.get("clipPathUnits") == "objectBoundingBox":
