@@ -33,6 +33,9 @@ __all__ = ["read_svg"]
 #: beyond them, in shares of its longer side.
 _NEAR_EDGE = 0.01
 
+#: A line whose width is more than this share of its length encloses something.
+_WIDE = 1e-9
+
 #: What is told of what is not done.
 _UNDONE = {
     "clip-path": "clip paths that are text or said by a style alone",
@@ -179,4 +182,4 @@ def _is_wide(line: Floats) -> bool:
     away = line - line[0]
     far = away[np.abs(away).sum(axis=1).argmax()]
     off = away @ np.array([-far[1], far[0]])
-    return bool(np.abs(off).max() > 1e-9 * (far @ far))
+    return bool(np.abs(off).max() > _WIDE * (far @ far))

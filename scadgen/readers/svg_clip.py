@@ -102,6 +102,8 @@ def clipped(
         Lines that are no further outside are left as they are; shorter ones are left out.
     """
     drawn = shapely.MultiLineString([shapely.LineString(line) for line in lines])
+    if clip.distance(drawn.envelope) > tolerance:
+        return []
     if clip.buffer(tolerance, join_style="mitre").covers(drawn):
         return lines
     kept: list[BaseGeometry] = []
