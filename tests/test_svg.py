@@ -130,13 +130,27 @@ def test_what_the_page_does_not_show_is_left_out_and_told(svg):
         "shapes beyond the page left ",
         "shapes cut at the edge of th",
     ]
-    with pytest.raises(InputError, match=r"nothing in it that could be an edge; shapes beyond"):
+    with pytest.raises(InputError, match=r"nothing in it that could be an edge; .*shapes beyond"):
         svg(pen.format("M110 20H190"))
+    # Something is painted, so that what is not painted stays out.
+    with pytest.raises(InputError, match=r"nothing in it that could be an edge; "):
+        svg(pen.format("M110 20H190") + '<line x2="9"/>')
     # A file that does not say how large its page is ends nowhere.
     assert box(svg(pen.format("M10 10H190"), page="")) == [
         [2.645833, -2.645833],
         [50.270833, -2.645833],
     ]
+
+
+def test_a_page_of_another_shape_than_its_view_box_shows_what_is_beside_that(svg):
+    pen = '<path fill="none" stroke="#000" d="M-30 50H130M50 10V20"/>'
+    # At half the size, 50 units are seen left and right of the view box.
+    wide = svg(pen, page='width="100mm" height="50mm" viewBox="0 0 100 100"')
+    assert ends(wide) == [((-15, 25), (65, 25)), ((25, 40), (25, 45))]
+    # At full size only the middle half of its height is seen.
+    fit = 'viewBox="0 0 100 100" preserveAspectRatio="xMidYMid slice"'
+    full = svg(pen, page=f'width="100mm" height="50mm" {fit}')
+    assert ends(full) == [((0, 50), (100, 50))]
 
 
 def test_style_sheets_hide_and_show(svg):

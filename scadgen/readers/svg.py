@@ -159,8 +159,11 @@ def read_svg(path: Path, reading: Reading) -> Read:
     notes = [*page.notes, *_undone(walk.undone + found.undone, sheets + cascade.outside)]
     lines, told = found.lines, found.told
     if not lines:
-        lines, read = (found.background, "background") if found.background else (found.bare, "bare")
-        told = told + Counter({f"{read} read": told.pop(read, 0), "hidden": walk.hidden})
+        # A background alone is what is drawn; so are bare lines, unless something is painted.
+        for read, instead in (("background", found.background), ("bare", found.bare)):
+            if instead and not lines and not (told["beyond"] or told["clipped"]):
+                lines, told[f"{read} read"] = instead, told.pop(read)
+        told["hidden"] = walk.hidden
         told["symbol"] = sum(kind_of(element) == "symbol" for element in root.iter())
     notes += [f"{words}: {told[kind]}" for kind, words in _TOLD.items() if told[kind]]
     notes += unknown(walk.strange, reading)
