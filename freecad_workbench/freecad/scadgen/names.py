@@ -5,11 +5,11 @@ from __future__ import annotations
 from FreeCAD import Qt
 
 from freecad.scadgen.affine import Solid
+from freecad.scadgen.live import LENGTHS
 
 __all__ = [
     "CELLS",
     "COLOURS",
-    "LENGTHS",
     "ROLE_LABELS",
     "icon_of",
     "joint_label",
@@ -34,24 +34,6 @@ _LABELS = {
     "half": QT_TRANSLATE_NOOP("Scadgen", "Half"),
     "peg": QT_TRANSLATE_NOOP("Scadgen", "Peg"),
     "tube": QT_TRANSLATE_NOOP("Scadgen", "Tube"),
-}
-
-#: Live parameters, all lengths: the property each is, and what it means.
-LENGTHS = {
-    "side": ("Side", QT_TRANSLATE_NOOP("App::Property", "Side of the square tubes")),
-    "edge_length": (
-        "EdgeLength",
-        QT_TRANSLATE_NOOP("App::Property", "Distance between the centres of two joints"),
-    ),
-    "clearance": ("Clearance", QT_TRANSLATE_NOOP("App::Property", "Gap between mating faces")),
-    "peg_width": ("PegWidth", QT_TRANSLATE_NOOP("App::Property", "Side of the square peg")),
-    "peg_length": ("PegLength", QT_TRANSLATE_NOOP("App::Property", "Length of the peg")),
-    "peg_clearance": (
-        "PegClearance",
-        QT_TRANSLATE_NOOP("App::Property", "Gap between the peg and each wall of its socket"),
-    ),
-    "peg_chamfer": ("PegChamfer", QT_TRANSLATE_NOOP("App::Property", "Lead-in of the peg's tips")),
-    "bore": ("Bore", QT_TRANSLATE_NOOP("App::Property", "Side of the square bore along all edges")),
 }
 
 #: Cells of a frame whose rows and columns can be set.

@@ -1,0 +1,42 @@
+"""The live parameters, all lengths; written by scripts/live_tables.py.  Do not edit."""
+
+__all__ = ["LENGTHS", "OPTIONAL"]
+
+#: The property that each is, and what it means.
+LENGTHS = {
+    "side": (
+        "Side",
+        "Side of the square tubes",
+    ),
+    "edge_length": (
+        "EdgeLength",
+        "Distance between the centres of two joints",
+    ),
+    "clearance": (
+        "Clearance",
+        "Gap between mating faces",
+    ),
+    "peg_width": (
+        "PegWidth",
+        "Side of the square peg",
+    ),
+    "peg_length": (
+        "PegLength",
+        "Length of the peg",
+    ),
+    "peg_clearance": (
+        "PegClearance",
+        "Gap between the peg and each wall of its socket",
+    ),
+    "peg_chamfer": (
+        "PegChamfer",
+        "Lead-in of the peg's tips",
+    ),
+    "bore": (
+        "Bore",
+        "Side of the square bore along all edges",
+    ),
+}
+
+#: Those that a kit may lack.
+OPTIONAL = ("bore",)
