@@ -11,7 +11,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from xml.sax.saxutils import escape
 
-from scadgen.kit.live import LIVE, Live
+from scadgen.kit.live import LIVE
+from scadgen.kit.parameter import Live
 
 __all__ = ["tables"]
 

@@ -15,7 +15,6 @@ from scadgen.emit.macro import workbench
 from scadgen.kit.live import LIVE, PARAMETERS
 from scadgen.kit.ranges import check_values
 
- / "scripts"))
 sys.path.append(str(workbench()))
 sys.path.append(str(workbench().parent / "scripts"))
 import live_tables
@@ -154,7 +153,8 @@ def test_a_new_one_is_in_the_readme(longer):
 
 def test_a_new_one_is_a_property_and_a_field_in_freecad(longer):
     code = (
-        "import sys;         "from freecad.scadgen.live import LENGTHS; print(LENGTHS['tube_gap'])"
+        "import sys; sys.path.append('freecad_workbench')\n"
+        "from freecad.scadgen.live import LENGTHS; print(LENGTHS['tube_gap'])"
     )
     status, said, _ = run(longer, "-c", code)
     assert (status, said) == (0, "('TubeGap', 'Gap at each end of plain tubes')\n")

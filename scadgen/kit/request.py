@@ -14,8 +14,9 @@ from scadgen.frame.placement import KEYS
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.weave import Weave
 from scadgen.kit.cells import check_cells
-from scadgen.kit.live import PARAMETERS, USUAL_SIDE, Settings, Tightest
+from scadgen.kit.live import LIVE, PARAMETERS, USUAL_SIDE
 from scadgen.kit.model import RIMS
+from scadgen.kit.parameter import Settings, Tightest
 from scadgen.kit.pieces import Pieces
 from scadgen.kit.ranges import check_values
 from scadgen.solid.affine import Range
@@ -172,4 +173,4 @@ def default_values(
     """
     values = {**request.values, "side": request.side}
     check_values([r for r in limits if r.parameter == "side"], values)
-    return Settings(Tightest.of(pieces), values).all()
+    return Settings(LIVE, Tightest.of(pieces), values).all()

@@ -16,9 +16,10 @@ from scadgen.element.ends import End, connector, connector_end, flat_end, key_en
 from scadgen.element.pieces import half
 from scadgen.frame.kinds import Kinds
 from scadgen.kit.elements import Element, ElementEnd, Elements, edge_elements
-from scadgen.kit.live import Tightest, limits
+from scadgen.kit.live import limits
 from scadgen.kit.model import Part, PartEnd
 from scadgen.kit.named import Named
+from scadgen.kit.parameter import Tightest
 from scadgen.kit.pieces import Pieces
 from scadgen.solid.affine import Floats, Ints, Range
 
