@@ -17,6 +17,7 @@ from pathlib import Path
 from xml.etree import ElementTree as ET
 
 from scadgen.kit.live import LIVE
+from scadgen.kit.roles import PART_ROLES
 
 __all__ = ["SOURCE", "translated", "words"]
 
@@ -31,6 +32,7 @@ def words(source: Path = SOURCE) -> list[tuple[str, str]]:
     found = {pair for path in source.rglob("*.py") for pair in _python_words(path)}
     found |= {pair for path in source.rglob("*.ui") for pair in _ui_words(path)}
     found |= {("App::Property", live.text) for live in LIVE}
+    found |= {("Scadgen", role.label) for role in PART_ROLES.values()}
     return sorted(found)
 
 

@@ -20,7 +20,7 @@ __all__ = ["macro", "workbench"]
 
 #: The modules that the macro is put together from, each after those it imports.
 _MODULES = (
-    *("faces", "cells", "live", "sense", "affine"),
+    *("faces", "cells", "tables", "sense", "affine"),
     *("brep", "shape", "names", "refusal", "macro"),
 )
 

@@ -13,6 +13,7 @@ from scadgen.errors import InvariantError
 from scadgen.kit.cells import MOST_CELLS
 from scadgen.kit.live import LIVE
 from scadgen.kit.model import Kit, Part
+from scadgen.kit.roles import PART_ROLES
 
 __all__ = [
     "Parameter",
@@ -30,15 +31,6 @@ _PARTS: Mapping[str, str] = {
     "one_sided": "Edge element with connector and peg end",
     "two_sided": "Edge element with two peg ends",
     "half": "Locking half - print two a joint",
-}
-
-#: What other parts are, by their role; each may have a number or a letter of its own.
-_ROLES: Mapping[str, str] = {
-    "element": "Edge element {}",
-    "connector": "Loose connector {} for the rim",
-    "half": "Locking half {}",
-    "peg": "Loose peg {}",
-    "tube": "Plain tube {}",
 }
 
 #: What else is drawn.
@@ -112,7 +104,7 @@ def label(part: Part) -> str:
     if part.name in _PARTS:
         return _PARTS[part.name]
     number = part.name.partition("_")[2].removesuffix("_over")
-    said = " ".join(_ROLES[part.role].format(number).split())
+    said = " ".join(PART_ROLES[part.role].text.format(number).split())
     return f"{said} - second shape" if part.role == "half" and part.ends[0].over else said
 
 

@@ -1,7 +1,7 @@
 """The live parameters: all that is said of each, in one table.
 
 Command line, Customizer, README, ``kit.json`` and FreeCAD have from here what can be set.  What
-other files hold of it is written by ``scripts/live_tables.py``.
+other files hold of it is written by ``scripts/tables.py``.
 """
 
 from __future__ import annotations

@@ -23,7 +23,6 @@ from scadgen.solid.pose import Pose
 
 __all__ = [
     "DENSITIES",
-    "PART_ROLES",
     "RIMS",
     "Joint",
     "Kit",
@@ -46,9 +45,6 @@ DENSITIES: Mapping[str, float] = {
 
 #: What is done where a joint at the rim lacks edges of an inner one.
 RIMS = ("caps", "open")
-
-#: What a part is for.
-PART_ROLES = ("element", "connector", "half", "peg", "tube")
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +80,7 @@ class Part(AffineSolid):
     Parameters
     ----------
     role
-        One of `PART_ROLES`.
+        What it is for; one of `roles.PART_ROLES`.
     ends
         What it ends in: near and far end of an element, the one of a connector, a half or a
         loose peg, none of a tube.

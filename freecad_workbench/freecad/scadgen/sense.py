@@ -8,15 +8,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from freecad.scadgen.cells import MOST_CELLS
-from freecad.scadgen.live import LENGTHS, OPTIONAL
+from freecad.scadgen.tables import LENGTHS, OPTIONAL, PART_ROLES
 
-__all__ = ["KEYS", "PART_ROLES", "ROLES", "nonsense"]
+__all__ = ["KEYS", "ROLES", "nonsense"]
 
 #: Key styles.
 KEYS = ("fixed", "loose")
-
-#: What a part is for.
-PART_ROLES = ("element", "connector", "half", "peg", "tube")
 
 #: What a placed piece is to the viewer.
 ROLES = ("row", "cross", "half_a", "half_b", "cap", "peg")

@@ -1,6 +1,6 @@
-"""The live parameters, all lengths; written by scripts/live_tables.py.  Do not edit."""
+"""The live parameters, and what parts are for; written by scripts/tables.py.  Do not edit."""
 
-__all__ = ["LENGTHS", "OPTIONAL"]
+__all__ = ["LENGTHS", "OPTIONAL", "PART_ROLES"]
 
 #: The property that each is, and what it means.
 LENGTHS = {
@@ -40,3 +40,12 @@ LENGTHS = {
 
 #: Those that a kit may lack.
 OPTIONAL = ("bore",)
+
+#: What a part is for: what it is called, the role whose colour it has alone, its icon.
+PART_ROLES = {
+    "element": ("Edge element", "row", "basic"),
+    "connector": ("Connector", "cap", "connector"),
+    "half": ("Half", "half_a", "half"),
+    "peg": ("Peg", "peg", "peg"),
+    "tube": ("Tube", "row", "tube"),
+}

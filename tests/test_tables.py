@@ -1,4 +1,4 @@
-"""The table of live parameters: what is written from it, and that a new one is one entry."""
+"""The tables of live parameters and of parts: what is written from them, and what is added."""
 
 import json
 import os
@@ -12,14 +12,15 @@ import trimesh
 from kits import kit
 
 from scadgen.emit.macro import workbench
+from scadgen.kit import roles
 from scadgen.kit.live import LIVE, PARAMETERS
 from scadgen.kit.ranges import check_values
 
 sys.path.append(str(workbench()))
 sys.path.append(str(workbench().parent / "scripts"))
-import live_tables
+import tables
 
-from freecad.scadgen.live import LENGTHS, OPTIONAL
+from freecad.scadgen.tables import LENGTHS, OPTIONAL, PART_ROLES
 
 ROOT = workbench().parent
 
@@ -40,6 +41,19 @@ ENTRY = """
 )
 
 #: Their names"""
+#: A part that there is not: what it is for, its solid, and where the kit gets it from.
+ROLE = """    "spacer": PartRole("Spacer {}", "Spacer", "peg"),
+}
+"""
+SOLID = '''
+
+def spacer(key: Key) -> AffineSolid:
+    """A tube half as long as others."""
+    flat = flat_end(key, {})
+    return part("spacer", flat, flat, {"edge_length": 0.5})
+'''
+TUBES = '"tube", length=1.0)'
+
 #: A kit that is made fast.
 KIT = ("kit", "hexagonal", "--detail", "draft", "--unchecked")
 
@@ -47,15 +61,18 @@ KIT = ("kit", "hexagonal", "--detail", "draft", "--unchecked")
 FLAT = 'flat_end(key, {"side": key.tube_start, "clearance": 1.0'
 
 
-@pytest.mark.parametrize(("path", "text"), [*live_tables.tables()], ids=lambda x: Path(x).name[:20])
+@pytest.mark.parametrize(("path", "text"), [*tables.tables()], ids=lambda x: Path(x).name[:20])
 def test_what_is_written_from_the_table_is_current(path, text):
-    assert path.read_text("utf-8") == text, "run scripts/live_tables.py"
+    assert path.read_text("utf-8") == text, "run scripts/tables.py"
 
 
 def test_all_know_the_same_names():
     assert tuple(LENGTHS) == PARAMETERS
     assert {name for name, _ in LENGTHS.values()} == {live.property_name for live in LIVE}
-    schema = json.loads(live_tables.SCHEMA.read_text("utf-8"))["$defs"]
+    assert {role: said[0] for role, said in PART_ROLES.items()} == {
+        role: said.label for role, said in roles.PART_ROLES.items()
+    }
+    schema = json.loads(tables.SCHEMA.read_text("utf-8"))["$defs"]
     assert schema["parameter"]["enum"] == list(PARAMETERS)
     assert {*schema["lengths"]["required"], *OPTIONAL} == {*PARAMETERS}
 
@@ -73,14 +90,20 @@ def test_every_live_parameter_has_a_range_after_those_that_its_bounds_are_made_o
 
 @pytest.fixture(scope="module")
 def longer(tmp_path_factory):
-    """The project with one more live parameter, told in one place, and a kit."""
+    """The project with one more live parameter and one more part, and a kit with both."""
     place = tmp_path_factory.mktemp("project")
     ignored = shutil.ignore_patterns("__pycache__")
     for folder in ("scadgen", "templates", "freecad_workbench", "scripts"):
         shutil.copytree(ROOT / folder, place / folder, ignore=ignored)
     edit(place / "scadgen" / "kit" / "live.py", "\n)\n\n#: Their names", ENTRY)
     edit(place / "scadgen" / "kit" / "solids.py", FLAT, f'{FLAT}, "tube_gap": 1.0')
-    assert run(place, "scripts/live_tables.py")[0] == 0
+    edit(place / "scadgen" / "kit" / "roles.py", "\n}\n", f"\n{ROLE}")
+    with (place / "scadgen" / "element" / "ends.py").open("a", encoding="utf-8") as file:
+        file.write(SOLID)
+    solids = place / "scadgen" / "kit" / "solids.py"
+    edit(solids, TUBES, f'{TUBES}, Part.of(spacer(key), "spacer", length=0.5)')
+    edit(solids, "key_end, part, peg", "key_end, part, peg, spacer")
+    assert run(place, "scripts/tables.py")[0] == 0
     assert run(place, "-m", "scadgen", *KIT, "--tube-gap", "1.8", "-o", "made")[0] == 0
     return place
 
@@ -126,7 +149,7 @@ def test_a_new_one_is_in_the_kit_and_its_schema(longer):
     del document["values"]["tube_gap"]
     (longer / "kit.json").write_text(json.dumps(document), "utf-8")
     status, _, said = run(longer, "-m", "scadgen", "export", "kit.json", *words[2:])
-    assert status == 2
+    assert status == 2, said
     assert "'tube_gap' is a required property" in said
 
 
@@ -154,7 +177,7 @@ def test_a_new_one_is_in_the_readme(longer):
 def test_a_new_one_is_a_property_and_a_field_in_freecad(longer):
     code = (
         "import sys; sys.path.append('freecad_workbench')\n"
-        "from freecad.scadgen.live import LENGTHS; print(LENGTHS['tube_gap'])"
+        "from freecad.scadgen.tables import LENGTHS; print(LENGTHS['tube_gap'])"
     )
     status, said, _ = run(longer, "-c", code)
     assert (status, said) == (0, "('TubeGap', 'Gap at each end of plain tubes')\n")
@@ -162,3 +185,30 @@ def test_a_new_one_is_a_property_and_a_field_in_freecad(longer):
     assert 'name="has_tube_gap"' in panel.read_text("utf-8")
     macro = (longer / "made" / "hexagonal.FCMacro").read_text("utf-8")
     assert '"TubeGap"' in macro
+
+
+def test_a_new_part_is_in_all_files_and_drawn(longer):
+    text = (longer / "made" / "hexagonal.scad").read_text("ascii")
+    assert ", spacer:Spacer," in text
+    assert "`spacer`" in (longer / "made" / "README.md").read_text("utf-8")
+    assert "spacer" in (longer / "made" / "Makefile").read_text("utf-8")
+    words = ("export", "made", "--part", "spacer", "--set", "edge_length=80", "-o", "spacer.stl")
+    assert run(longer, "-m", "scadgen", *words)[0] == 0
+    scad, stl = longer / "made" / "hexagonal.scad", longer / "drawn.stl"
+    wanted = ["-D", 'part="spacer"', "-D", "edge_length=80"]
+    subprocess.run(["openscad", *wanted, "-o", stl, scad], check=True, capture_output=True)
+    for path in (longer / "spacer.stl", stl):
+        mesh = trimesh.load(path)
+        assert mesh.extents == pytest.approx([40, 10, 10], abs=1e-4)
+        assert mesh.volume == pytest.approx(40 * 10 * 10, rel=1e-5)
+
+
+def test_a_new_part_is_read_and_has_its_words_in_freecad(longer):
+    code = (
+        "import sys; sys.path.append('freecad_workbench')\n"
+        "from freecad.scadgen.affine import read_kit\n"
+        "from freecad.scadgen.tables import PART_ROLES\n"
+        "print(PART_ROLES[read_kit('made').parts['spacer'].role])"
+    )
+    status, said, _ = run(longer, "-c", code)
+    assert (status, said) == (0, "('Spacer', 'peg', 'kit')\n")

@@ -1,6 +1,6 @@
-"""Writes what other files hold of the live parameters: the schema of kits, and the workbench.
+"""Writes what the schema of kits and the workbench hold of live parameters and parts.
 
-usage: python scripts/live_tables.py
+usage: python scripts/tables.py
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from xml.sax.saxutils import escape
 
 from scadgen.kit.live import LIVE
 from scadgen.kit.parameter import Live
+from scadgen.kit.roles import PART_ROLES
 
 __all__ = ["tables"]
 
@@ -28,9 +29,9 @@ _LOWEST, _HIGHEST = 0.01, 2000.0
 
 
 def tables() -> Iterator[tuple[Path, str]]:
-    """Each file, and its text as the table of live parameters has it."""
+    """Each file, and its text as the tables have it."""
     yield SCHEMA, _schema(SCHEMA.read_text("utf-8"))
-    yield WORKBENCH / "live.py", _workbench()
+    yield WORKBENCH / "tables.py", _workbench()
     panel = WORKBENCH / "ui" / "new_kit.ui"
     rows = "".join(_row(number, live) for number, live in enumerate(LIVE))
     yield panel, _ROWS.sub(lambda m: m[1] + rows + m[2], panel.read_text("utf-8"))
@@ -41,6 +42,9 @@ def _schema(text: str) -> str:
     names = [live.name for live in LIVE]
     needed = [live.name for live in LIVE if not live.optional]
     text = re.sub(r'("parameter": {"enum": )\[.*?\]', lambda m: m[1] + json.dumps(names), text)
+    roles = json.dumps([*PART_ROLES])
+    of_parts = re.compile(r'("ends", "length".*?"role": {"enum": )\[.*?\]', re.DOTALL)
+    text = of_parts.sub(lambda m: m[1] + roles, text)
     lengths = re.compile(r'("lengths": {[^\[]*?"required": )\[.*?\]')
     return lengths.sub(lambda m: m[1] + json.dumps(needed), text)
 
@@ -52,11 +56,15 @@ def _workbench() -> str:
         f"        {json.dumps(live.text)},\n    ),\n"
         for live in LIVE
     )
+    roles = "".join(
+        f'    "{name}": ("{role.label}", "{role.alone}", "{role.icon}"),\n'
+        for name, role in PART_ROLES.items()
+    )
     optional = "".join(f'"{live.name}", ' for live in LIVE if live.optional).rstrip()
     return f'''\
-"""The live parameters, all lengths; written by scripts/live_tables.py.  Do not edit."""
+"""The live parameters, and what parts are for; written by scripts/tables.py.  Do not edit."""
 
-__all__ = ["LENGTHS", "OPTIONAL"]
+__all__ = ["LENGTHS", "OPTIONAL", "PART_ROLES"]
 
 #: The property that each is, and what it means.
 LENGTHS = {{
@@ -64,6 +72,10 @@ LENGTHS = {{
 
 #: Those that a kit may lack.
 OPTIONAL = ({optional})
+
+#: What a part is for: what it is called, the role whose colour it has alone, its icon.
+PART_ROLES = {{
+{roles}}}
 '''
 
 
