@@ -13,8 +13,8 @@ from scadgen.frame.graph import make_frame
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import Request, build
+from scadgen.kit.live import PARAMETERS
 from scadgen.kit.store import dumps
-from scadgen.solid.affine import PARAMETERS
 from scadgen.solid.shell import Shell
 
 #: Every kind of kit: frame, key, bore in mm.

@@ -14,6 +14,7 @@ import click
 from scadgen.cli.console import Bar, counted, progress
 from scadgen.cli.frame_source import source_options
 from scadgen.cli.kit_request import kit_request
+from scadgen.kit.live import LIVE, PARAMETERS
 
 if TYPE_CHECKING:
     from scadgen.kit.build import Request
@@ -32,34 +33,12 @@ _PROOFS, _FILES = 12, 9
 #: What has no say in what is made.
 _NOT_MADE = ("frame", "output", "jobs", "dask", "no_cache", "as_json")
 
-#: The live parameters: option, what it sets, the words about its default.
-_LENGTHS = (
-    ("side", "side of the square tubes", "10"),
-    (
-        "edge_length",
-        "length of the shortest edges; a frame from a file grows or shrinks to it",
-        "6 sides, more for a wide ring; of a file what it says",
-    ),
-    ("clearance", "gap between mating faces", "0.2"),
-    ("peg_width", "width of the square pegs", "0.4 sides"),
-    ("peg_length", "length of the pegs", "0.6 sides; loose: as far as it must reach"),
-    ("peg_clearance", "gap around the pegs", "the clearance"),
-    ("peg_chamfer", "lead-in of the pegs' tips", "0.05 sides"),
-    ("bore", "width of a bore along all edges; 0 for solid ones", "0"),
-)
-
 
 def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are typed so
     """Add an option for each live parameter."""
-    for name, what, default in reversed(_LENGTHS):
-        option = f"--{name.replace('_', '-')}"
-        function = click.option(
-            option,
-            name,
-            type=float,
-            metavar="MM",
-            help=f"{what.capitalize()}.  [default: {default}]",
-        )(function)
+    for live in reversed(LIVE):
+        add = click.option(live.option, live.name, type=float, metavar="MM", help=live.help)
+        function = add(function)
     return function
 
 
@@ -161,7 +140,7 @@ def kit(
     from scadgen.work.each import Means
 
     material = check_material(material)
-    request, notes = kit_request(frame, options, {name for name, *_ in _LENGTHS}, _command())
+    request, notes = kit_request(frame, options, PARAMETERS, _command())
     folder = output or Path(request.name)
     check_folder(folder)
     told: list[str] = []

@@ -16,8 +16,8 @@ from scadgen.frame.planarity import more, where
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.lattice import make_lattice
 from scadgen.kit.apart import Apart
+from scadgen.kit.live import CLEARANCE, peg_length
 from scadgen.kit.ranges import SIDE, TUBE
-from scadgen.kit.request import CLEARANCE, peg_length
 from scadgen.solid.affine import Floats
 
 __all__ = ["Room", "reaches", "room"]
