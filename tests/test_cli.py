@@ -165,7 +165,7 @@ def test_the_command_of_a_kit_has_flags_as_they_are_typed(run, tmp_path, monkeyp
         '<svg xmlns="http://www.w3.org/2000/svg" width="150mm" height="9mm" viewBox="0 0 150 9">'
         '<path stroke="black" d="M0 0 H150"/><text x="9" y="9">rail</text></svg>'
     )
-    flags = ("--no-split", "--skip-unknown", "--components", "--unchecked")
+    flags = ("--no-split", "--centre", "--components", "--unchecked")
     assert run("kit", "rail.svg", *DRAFT, *flags, "-o", "one")[0] == 0
     command = load(tmp_path / "one").command.split()
     assert {*flags} < {*command}

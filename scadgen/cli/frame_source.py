@@ -47,6 +47,8 @@ _DRAWINGS = (".dxf", ".svg")
 #: Options of files: type, metavar, what it means, and kinds of files if not all.
 _READING: dict[str, tuple[type, str | None, str, tuple[str, ...] | None]] = {
     "scale": (float, "MM", "millimetres per unit.  [default: what the file says]", None),
+    "unit": (str, "NAME", "the unit instead, by its name: mm, cm, m, inch, foot.", None),
+    "centre": (bool, None, "move the middle of the frame to 0.", None),
     "tolerance": (
         float,
         "MM",
@@ -61,7 +63,12 @@ _READING: dict[str, tuple[type, str | None, str, tuple[str, ...] | None]] = {
         (".json", ".obj", ".off"),
     ),
     "no_split": (bool, None, "refuse segments that cross instead of splitting them.", _DRAWINGS),
-    "skip_unknown": (bool, None, "leave out what cannot be part of a frame.", (*_DRAWINGS, ".obj")),
+    "strict": (
+        bool,
+        None,
+        "refuse what cannot be part of a frame, instead of leaving it out.",
+        (*_DRAWINGS, ".obj"),
+    ),
     "components": (bool, None, "allow several parts that are not connected.", None),
     "shortest": (float, "MM", "refuse edges shorter than this.", None),
     "most": (int, "N", "allow this many vertices, segments or edges.  [default: 100000]", None),
@@ -156,6 +163,7 @@ def _load(name: str, given: dict[str, Any]) -> Read:
     from scadgen.frame.catalogue import ALIASES, NAMES, named
     from scadgen.readers.read import READERS, read
     from scadgen.readers.reading import Read, Reading
+    from scadgen.readers.units import unit
 
     family = NAMES.get(ALIASES.get(name, name))
     if family is not None:
@@ -183,6 +191,11 @@ def _load(name: str, given: dict[str, Any]) -> Read:
             msg = f"frame {name}: {option(one)} needs --repair"
             raise InputError(msg)
     _check_options(name, given, taken)
+    if "unit" in given:
+        if "scale" in given:
+            msg = f"frame {name}: --scale and --unit: give one of them"
+            raise InputError(msg)
+        given["scale"] = unit(given.pop("unit"))
     if given.pop("no_split", False):
         given["split"] = False
     found = read(path, Reading(**given))
