@@ -317,7 +317,7 @@ def test_a_picture_has_every_part_in_the_colour_of_its_kind(run, tmp_path):
     assert run("3.4.6.4", "--picture", path)[0] == 0
     frame = named("3.4.6.4")
     same = sameness(frame)
-    assert path.read_text() == frame_svg(frame, same)
+    assert path.read_text().startswith(frame_svg(frame, same))
     edges, joints = ElementTree.parse(path).getroot().findall(f"{SVG}g")[:2]
     lines = {p.get("stroke"): p.get("d").count("M") for p in edges}
     assert sorted(lines.values()) == sorted(len(e.edges) for e in same.edges)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from scadgen.cli.console import force_option, kit_files
 from scadgen.errors import InputError
 from scadgen.kit.model import Kit
 from scadgen.solid.affine import Range
@@ -27,15 +28,22 @@ __all__ = ["export", "settings"]
 @click.option(
     "-o", "--output", required=True, type=click.Path(path_type=Path), help="File to write."
 )
+@force_option
 def export(
-    folder: Path, part: str, kind: str | None, changes: tuple[str, ...], output: Path
+    folder: Path,
+    part: str,
+    kind: str | None,
+    changes: tuple[str, ...],
+    output: Path,
+    force: bool,  # noqa: FBT001  click passes flags so
 ) -> None:
     """Write one part of a kit as STL, 3MF, OBJ or GLB.
 
     \b
     scadgen export out/hexagonal --part half --set clearance=0.3 -o half.stl
     """  # noqa: D301  click wants the character
-    from scadgen.emit.mesh import mesh_bytes, write_atomic
+    from scadgen.emit.mesh import mesh_bytes
+    from scadgen.emit.target import target
     from scadgen.kit.store import load
 
     kind = _kind(kind, output)
@@ -45,9 +53,10 @@ def export(
         hint = f" (did you mean {near[0]}?)" if near else ""
         msg = f"part = {part!r}: must be one of {', '.join(kit.parts)}{hint}"
         raise InputError(msg)
+    place = target(output, kit_files(folder), force=force)
     solid = kit.parts[part]
     points = solid.points(settings(kit, changes))
-    write_atomic(output, mesh_bytes(points, solid.triangles, kind))
+    place.put(mesh_bytes(points, solid.triangles, kind), kind)
     click.echo(f"{click.format_filename(output)}: {part}, {len(solid.triangles)} triangles")
 
 

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from scadgen.cli.console import status, table
+from scadgen.cli.console import force_option, status, table
 from scadgen.cli.frame_report import SIDES, report, show
 from scadgen.cli.frame_source import has_cells, load_frame, option, source_options
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
+    from scadgen.emit.target import Target
     from scadgen.frame.graph import Frame
     from scadgen.frame.sameness import Sameness, Snapped
 
@@ -42,6 +43,7 @@ _FILE = click.Path(path_type=Path)
 @source_options()
 @click.option("-o", "--output", type=_FILE, help="Write the frame as JSON.")
 @click.option("--picture", type=_FILE, metavar="FILE", help="Draw it as SVG, in colours by kind.")
+@force_option
 @click.option("--json", "as_json", is_flag=True, help="Say it as JSON.")
 def frame(  # noqa: PLR0913, PLR0917  one argument an option
     name: str | None,
@@ -52,6 +54,7 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     snap_length: float | None,
     output: Path | None,
     picture: Path | None,
+    force: bool,  # noqa: FBT001
     as_json: bool,  # noqa: FBT001
     **options: Any,  # noqa: ANN401  of families and files
 ) -> int:
@@ -76,11 +79,10 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     if name is None:
         msg = "FRAME: is missing; name a file, or one of those that scadgen frame --list shows"
         raise InputError(msg)
-    _check_files(output, picture)
+    targets = _targets(Path(name), output, picture, force=force)
     _check_range("side", side, "mm", SIDES)
     from scadgen.check.frame import rings
     from scadgen.emit.frame_picture import frame_svg
-    from scadgen.emit.mesh import write_atomic
     from scadgen.frame.catalogue import ALIASES, NAMES
     from scadgen.frame.sameness import Snapped
     from scadgen.joint.weave import LIMITS, built_in
@@ -98,10 +100,10 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
         snapped, same = (kinds, kinds.same) if isinstance(kinds, Snapped) else (None, kinds)
         build = rings(read.frame, same, ring_ratio, fixed=regular)
         said = report(build, read.notes, snapped, side)
-        if output:
-            write_atomic(output, dumps(read.frame).encode())
-        if picture:
-            write_atomic(picture, frame_svg(read.frame, same).encode())
+        if "json" in targets:
+            targets["json"].put(dumps(read.frame).encode(), "json")
+        if "svg" in targets:
+            targets["svg"].put(frame_svg(read.frame, same).encode(), "svg")
     if as_json:
         click.echo(json.dumps(said, indent=1))
     else:
@@ -141,17 +143,21 @@ def _check_range(what: str, value: float | None, unit: str, limits: tuple[float,
         raise InputError(msg)
 
 
-def _check_files(output: Path | None, picture: Path | None) -> None:
-    """Refuse, before any work, what could not be written or not be read again."""
-    from scadgen.emit.mesh import check_writable
+def _targets(
+    source: Path, output: Path | None, picture: Path | None, *, force: bool
+) -> dict[str, Target]:
+    """Where to write, by kind; refused before any work if it may not be, or not be read again."""
+    from scadgen.emit.target import target
 
-    for path, ending in ((output, ".json"), (picture, ".svg")):
+    targets = {}
+    for path, kind in ((output, "json"), (picture, "svg")):
         if path is None:
             continue
-        check_writable(path)
-        if path.suffix.lower() != ending:
-            msg = f"{str(path)!r}: must end in {ending}"
+        targets[kind] = target(path, [source], force=force)
+        if path.suffix.lower() != f".{kind}":
+            msg = f"{str(path)!r}: must end in .{kind}"
             raise InputError(msg)
+    return targets
 
 
 def _list(*, as_json: bool) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from scadgen.cli.console import Bar, counted, progress
+from scadgen.cli.console import Bar, counted, force_option, progress
 from scadgen.cli.frame_source import source_options
 from scadgen.cli.kit_request import kit_request
 
@@ -30,7 +30,7 @@ _PROOFS, _FILES = 12, 9
 
 
 #: What has no say in what is made.
-_NOT_MADE = ("frame", "output", "jobs", "dask", "no_cache", "as_json")
+_NOT_MADE = ("frame", "output", "jobs", "dask", "no_cache", "force", "as_json")
 
 #: The live parameters: option, what it sets, the words about its default.
 _LENGTHS = (
@@ -125,8 +125,9 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
     help="Neither use nor keep the joints and proofs of other kits in SCADGEN_CACHE, by default "
     "~/.cache/scadgen.",
 )
+@force_option
 @click.option("--json", "as_json", is_flag=True, help="Say what was made as JSON.")
-def kit(
+def kit(  # noqa: PLR0913, PLR0917  one argument an option
     frame: str,
     output: Path | None,
     material: str,
@@ -134,6 +135,7 @@ def kit(
     jobs: int | None,
     dask: str | None,
     no_cache: bool,  # noqa: FBT001
+    force: bool,  # noqa: FBT001
     as_json: bool,  # noqa: FBT001
     **options: Any,  # noqa: ANN401  of the kit, its live parameters, and the frame
 ) -> None:
@@ -163,14 +165,21 @@ def kit(
     material = check_material(material)
     request, notes = kit_request(frame, options, {name for name, *_ in _LENGTHS}, _command())
     folder = output or Path(request.name)
-    check_folder(folder)
+    read = [Path(frame), *([Path(options["weave"])] if options["weave"] else [])]
+    check_folder(folder, request.name, read, force=force)
     told: list[str] = []
     with hired(jobs, dask, told.append) as crew, progress(f"making {folder}") as bar:
         means = Means(crew, None if no_cache else Cache(default_folder()))
         made, done = _made(request, means, bar, unchecked=unchecked)
         write = bar.steps(done, 1.0, _FILES)
         made = replace(made, material=material)
-        write_kit(made, folder, progress=lambda file: write(f"writing {file}"))
+        write_kit(
+            made,
+            folder,
+            read=read,
+            force=force,
+            progress=lambda file: write(f"writing {file}"),
+        )
     if made.refused:
         choices = counted(len(made.refused), "choice")
         told.append(f"{choices} of a key not proved, or the frame loose with it: another is used")

@@ -16,11 +16,11 @@ __all__ = ["UNITS", "dumps", "read_json"]
 #: Millimetres in each unit that ``"unit"`` may name.
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}
 
-_KEYS = {"name", "unit", "vertices", "edges"}
+_KEYS = {"comment", "name", "unit", "vertices", "edges"}
 
 
 def read_json(path: Path, reading: Reading) -> Read:
-    """Read a frame from JSON; beside vertices and edges it may have a name and a unit.
+    """Read a frame from JSON; beside vertices and edges it may have a name, a unit and a comment.
 
     Raises
     ------
