@@ -96,8 +96,8 @@ def test_a_side_that_is_too_large_is_told_with_what_is_missing(run, said):
     code, out, _ = run(*words, "--side", 10)
     assert code == 1
     short = f"{edge['missing']:.4g}"
-    start = f"\nan edge of kind 1, 40 mm long, is {short} mm too short for its two joints, from "
-    assert start in out
+    said_so = f", of kind 1 and 40 mm long, is {short} mm too short for its two joints (and 5 more)"
+    assert re.search(rf"^edge \d from vertex \d at .*{re.escape(said_so)}$", out, re.MULTILINE)
     assert re.search(r"^kind +count +length.*\n1 +6 +40 ", out, re.MULTILINE)
     assert " (and 5 more)\n" in out
     assert out.endswith("; a side of 8.342 mm or a frame 1.195 times as large would do\n")
@@ -205,8 +205,8 @@ def test_angles_that_no_ring_holds_are_told_and_loose_ends_get_caps(run, said, t
     fan = said(path, "--side", 10, code=1)
     assert fan["largest_side"] is None
     assert fan["in_the_way"][0] == (
-        "joint B at (200, 10): edges 2.862 degrees apart: must be at least 25, or no ring is wide "
-        "enough"
+        "joint B, the vertex at (200, 10): edges 2.862 degrees apart: must be at least 25, or no "
+        "ring is wide enough"
     )
     assert not [line for line in fan["in_the_way"] if "joint A" in line]
     narrow = said(path, "--ring-ratio", 10)["in_the_way"][0]
@@ -335,6 +335,27 @@ def test_a_picture_is_the_frame_to_scale_y_up():
     assert (-points[:, 1] < float(root.get("height"))).all()
 
 
+def test_a_picture_has_rings_where_a_drawing_was_repaired_and_what_is_in_the_way(run, tmp_path):
+    # Two bars cross in the middle of a page of 100; a third, of 2, is too short for any joint.
+    path = tmp_path / "bars.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100" width="100mm" '
+        'height="100mm"><path fill="none" stroke="#000" d="M0 0L100 100M0 100L100 0V2"/></svg>'
+    )
+    assert run(path, "--side", 8, "--picture", tmp_path / "p.svg")[0] == 1
+    root = ElementTree.parse(tmp_path / "p.svg").getroot()
+    titles = [disc.findtext(f"{SVG}title") for disc in root.iter(f"{SVG}circle")]
+    assert "joint A, the vertex at (100, 98)" in titles
+    groups = {g.findtext(f"{SVG}title"): g for g in root.findall(f"{SVG}g")}
+
+    def places(what):
+        return [(float(c.get("cx")), float(c.get("cy"))) for c in groups[what].iter(f"{SVG}circle")]
+
+    assert places("repaired") == [(450, 450)]
+    # The bar of 2 goes from 100 to 98, its middle is 99; 8.4 pixels are a millimetre.
+    assert [450 + 8.4 * 50, 450 - 8.4 * 49] in [pytest.approx(p) for p in places("in the way")]
+
+
 def test_names_of_joints_go_on_after_z():
     names = [joint_name(kind) for kind in range(26 * 27)]
     assert names[:2] + names[25:28] + names[-1:] == ["A", "B", "Z", "AA", "AB", "ZZ"]
@@ -382,3 +403,25 @@ def test_bad_requests_are_refused_in_a_line(words, reason, run, tmp_path, monkey
     assert reason in err
     assert err.count("\n") == 1
     assert not list(tmp_path.iterdir())
+
+
+def test_a_kit_is_refused_for_what_frame_says_of_edges_all_but_along_each_other(
+    run, capsys, tmp_path
+):
+    # From (10, 390) one edge goes to (390, 10) and one to (390, 10.02): 0.02 mm at 537 mm.
+    path = tmp_path / "sliver.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="400mm" height="400mm" '
+        'viewBox="0 0 400 400"><path fill="none" stroke="#000" d="M10 10H390V390H10Z'
+        'M10 10L390 389.98M10 10L390 390"/></svg>'
+    )
+    code, out, _ = run(path, "--side", 10)
+    assert code == 1
+    said = "edges 0.001508 degrees apart: must be at least 25, or no ring is wide enough"
+    assert f"the vertex at (10, 390): {said}" in out
+    with pytest.raises(SystemExit):
+        main(["kit", str(path), "-o", str(tmp_path / "kit")])
+    err = capsys.readouterr().err
+    assert "the vertex at (10, 390), angles " in err
+    assert f": {said}\n" in err
+    assert not (tmp_path / "kit").exists()

@@ -42,7 +42,12 @@ _FILE = click.Path(path_type=Path)
 )
 @source_options()
 @click.option("-o", "--output", type=_FILE, help="Write the frame as JSON.")
-@click.option("--picture", type=_FILE, metavar="FILE", help="Draw it as SVG, in colours by kind.")
+@click.option(
+    "--picture",
+    type=_FILE,
+    metavar="FILE",
+    help="Draw it as SVG, in colours by kind, with rings where it was repaired or cannot be built.",
+)
 @force_option
 @click.option("--json", "as_json", is_flag=True, help="Say it as JSON.")
 def frame(  # noqa: PLR0913, PLR0917  one argument an option
@@ -103,7 +108,8 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
         if "json" in targets:
             targets["json"].put(dumps(read.frame).encode(), "json")
         if "svg" in targets:
-            targets["svg"].put(frame_svg(read.frame, same).encode(), "svg")
+            drawn = frame_svg(read.frame, same, read.places, build.places(side))
+            targets["svg"].put(drawn.encode(), "svg")
     if as_json:
         click.echo(json.dumps(said, indent=1))
     else:
@@ -128,9 +134,7 @@ def _kinds(frame: Frame, angle: float | None, length: float | None) -> Sameness 
     if length is not None and not 0 < length < math.inf:
         msg = f"snap-length = {length:g} mm: must be a positive number of mm"
         raise InputError(msg)
-    # Edges very near each other are told as such, not as a tolerance that nobody gave.
-    usual = min(known["angle_tolerance"].default, most / 2)
-    turn = usual if angle is None else math.radians(angle)
+    turn = None if angle is None else math.radians(angle)
     within = known["length_tolerance"].default if length is None else length
     if angle is None and length is None:
         return sameness(frame, turn, within)

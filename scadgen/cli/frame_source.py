@@ -155,7 +155,7 @@ def load_frame(name: str, options: Mapping[str, Any]) -> Read:
     from scadgen.readers.reading import Read
 
     moved = move_vertices(found.frame, within, given.get("shortest", 0.0))
-    return Read(moved.frame, (*found.notes, *moved.notes))
+    return Read(moved.frame, (*found.notes, *moved.notes), found.places)
 
 
 def _load(name: str, given: dict[str, Any]) -> Read:
@@ -201,7 +201,7 @@ def _load(name: str, given: dict[str, Any]) -> Read:
     found = read(path, Reading(**given))
     # What a file is called may not do as a frame's name in JSON.
     plain = re.sub(r"[^\w. -]", "_", found.frame.name)[:100]
-    return Read(replace(found.frame, name=plain), found.notes)
+    return replace(found, frame=replace(found.frame, name=plain))
 
 
 def option(name: str) -> str:

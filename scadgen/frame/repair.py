@@ -15,7 +15,8 @@ from scipy.spatial import cKDTree
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import LARGEST, Frame, make_frame
-from scadgen.frame.planarity import COUNTED, TOUCH, crossings, more, touches, where
+from scadgen.frame.numbering import BY_PLACE, where
+from scadgen.frame.planarity import COUNTED, TOUCH, crossings, more, touches
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["MOST_SEGMENTS", "REPAIRS", "TOLERANCE", "Repaired", "repair"]
@@ -154,7 +155,7 @@ def repair(
             raise InputError(msg)
         if not (_join(work) or _cross(work, split=split)):
             used, numbers = np.unique(work.pairs, return_inverse=True)
-            frame = make_frame(name, work.points[used], numbers.reshape(-1, 2))
+            frame = make_frame(name, work.points[used], numbers.reshape(-1, 2), BY_PLACE)
             counts = {kind: len(work.done.get(kind, ())) for kind in REPAIRS}
             notes = tuple(work.notes())
             return Repaired(frame, MappingProxyType(counts), notes, work.places())

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from scadgen.errors import InputError
+from scadgen.frame.numbering import Numbering
 from scadgen.readers.reading import Read, Reading, checked_scale, from_graph, load, unknown
 from scadgen.solid.affine import Floats, Ints
 
@@ -47,8 +48,8 @@ def read_obj(path: Path, reading: Reading) -> Read:
         msg = "is not OBJ: it has no line that begins with v"
         raise InputError(msg)
     notes = unknown(strange, reading)
-    read = _graph(path.stem, vertices, chains, reading)
-    return Read(read.frame, (*notes, *read.notes))
+    read = _graph(path.stem, vertices, chains, reading, first=1)
+    return Read(read.frame, (*notes, *read.notes), read.places)
 
 
 def read_off(path: Path, reading: Reading) -> Read:
@@ -82,7 +83,7 @@ def read_off(path: Path, reading: Reading) -> Read:
         corners = [_index(number, part, size, first=0) for part in rest[:sides]]
         _check_corners(number, corners if len(corners) == sides else [], 3)
         chains.append((corners, True))
-    return _graph(path.stem, vertices, chains, reading)
+    return _graph(path.stem, vertices, chains, reading, first=0)
 
 
 def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
@@ -99,9 +100,13 @@ def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
 
 
 def _graph(
-    name: str, vertices: list[list[float]], chains: list[tuple[list[int], bool]], reading: Reading
+    name: str,
+    vertices: list[list[float]],
+    chains: list[tuple[list[int], bool]],
+    reading: Reading,
+    first: int,
 ) -> Read:
-    """Edges of all chains, each once, on the vertices that they use."""
+    """Edges of all chains, each once, on the vertices that they use, counted from the first."""
     pairs = [
         pair
         for corners, closed in chains
@@ -113,7 +118,8 @@ def _graph(
     edges: Ints = np.unique(np.sort(np.array(pairs), axis=1), axis=0)
     used, numbers = np.unique(edges, return_inverse=True)
     points = np.array(vertices)[used] * checked_scale(reading, 1.0)
-    return from_graph(name, _flat(points, reading.tolerance), numbers.reshape(-1, 2), reading)
+    flat = _flat(points, reading.tolerance)
+    return from_graph(name, flat, numbers.reshape(-1, 2), reading, Numbering(used + first))
 
 
 def _flat(points: Floats, tolerance: float) -> Floats:

@@ -16,7 +16,8 @@ from numpy.typing import ArrayLike
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import LARGEST, Frame, make_frame, vertex_pairs
-from scadgen.frame.planarity import more, where
+from scadgen.frame.numbering import Numbering, counted, where
+from scadgen.frame.planarity import more
 from scadgen.frame.repair import MOST_SEGMENTS, TOLERANCE, repair
 from scadgen.solid.affine import Floats
 
@@ -187,8 +188,16 @@ def _start(file: BinaryIO, most: int) -> bytes:
     return bytes(found)
 
 
-def from_graph(name: str, vertices: ArrayLike, edges: ArrayLike, reading: Reading) -> Read:
-    """A frame whose vertices and edges the file lists.
+def from_graph(
+    name: str,
+    vertices: ArrayLike,
+    edges: ArrayLike,
+    reading: Reading,
+    numbering: Numbering | None = None,
+) -> Read:
+    """A frame whose vertices and edges the file lists, and called as it does.
+
+    Repaired ones are called by their places.
 
     Raises
     ------
@@ -197,13 +206,14 @@ def from_graph(name: str, vertices: ArrayLike, edges: ArrayLike, reading: Readin
     """
     points = np.asarray(vertices, dtype=float)
     pairs = vertex_pairs(edges, len(points))
+    called = numbering or counted(len(points), len(pairs))
     if reading.repair:
         alone = len(points) - len(np.unique(pairs))
         notes = (f"vertices without an edge left out: {alone}",) if alone else ()
         return from_segments(name, [points[pairs]], reading, notes)
     points, moved = _centred(points, reading)
     try:
-        frame = make_frame(name, points, pairs)
+        frame = make_frame(name, points, pairs, called)
     except InputError as error:
         if not (np.abs(points) <= LARGEST).all():
             raise
@@ -294,9 +304,8 @@ def _check(frame: Frame, reading: Reading) -> None:
     short = np.flatnonzero(frame.lengths < reading.shortest)
     if len(short):
         worst = int(frame.lengths.argmin())
-        ends = " to ".join(where(frame.vertices[v]) for v in frame.edges[worst])
         msg = (
-            f"edge from {ends} is {frame.lengths[worst]:.4g} mm long: at least "
+            f"{frame.called_edge(worst)} is {frame.lengths[worst]:.4g} mm long: at least "
             f"{reading.shortest:g} mm, {reading.shortest - frame.lengths[worst]:.4g} mm are "
             f"missing{more(len(short))}"
         )
