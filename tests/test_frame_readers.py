@@ -418,8 +418,7 @@ def test_what_is_not_plane_is_refused_with_how_far_off(tmp_path):
         ("a.obj", f"{CUBE_TOP}f 1 2 0\n", "line 5: '0' is none"),
         ("a.obj", f"{CUBE_TOP}f 1 2 -5\n", "line 5: '-5' is none"),
         ("a.obj", f"{CUBE_TOP}f 1 2 {'9' * 5000}\n", "is none of the 4 vertices"),
-        ("a.obj", f"{CUBE_TOP}f 1 2 2\n", "line 5: an edge from a vertex to itself"),
-        ("a.obj", f"{CUBE_TOP}l 1 1\n", "line 5: an edge from a vertex to itself"),
+        ("a.obj", f"{CUBE_TOP}l 1 1\n", "has no faces and no lines"),
         ("a.obj", CUBE_TOP, "has no faces and no lines"),
         (
             "a.obj",
@@ -428,9 +427,14 @@ def test_what_is_not_plane_is_refused_with_how_far_off(tmp_path):
         ),
         ("a.off", "PLY\n", "is not OFF"),
         ("a.off", "OFF\nthree 1\n", "line 2: must be the numbers of vertices, faces"),
-        ("a.off", "OFF\n3 1 0\n0 0 0\n", "ends after 1 of 3 vertices and 1 faces"),
+        ("a.off", "OFF\n3 1 0\n0 0 0\n", "ends after 1 of 3 vertices"),
         ("a.off", "OFF\n999999999 1 0\n", "999999999 vertices or more: at most"),
-        ("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "line 6: must have 3 vertices"),
+        (
+            "a.off",
+            "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n",
+            "ends after 3 of 3 vertices and 0 of 1 faces",
+        ),
+        ("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "line 6: must have 3 vertices"),
         ("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "line 6: '3' is none of the 3"),
         ("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "line 6: '-1' is none of the 3"),
     ],
@@ -443,3 +447,37 @@ def test_unknown_statements_are_left_out_and_told_or_refused(tmp_path):
     path = written(tmp_path, "a.obj", f"{CUBE_TOP}f 1 2 3\ncurv 0 1 1 2\ncurv 0 1 1 2\n")
     assert read(path).notes == ("left out: 2 curv",)
     assert "2 curv: cannot be part of a frame" in refusal(path, Reading(strict=True))
+
+
+@pytest.mark.parametrize(
+    ("text", "edges", "notes"),
+    [
+        # A triangle whose last corner is there twice, a face of one line in two, a lone point.
+        ("f 1 2 3 3\n", 3, ("line 5: a vertex twice in a row, taken once",)),
+        ("f 1 2 2\nf 1 1 1\nl 3 3 4\n", 2, None),
+        ("f 1 2 \\\n 3 4\n", 4, ()),
+        ("f 1/1/1 2/2/1 \\\n 3//1\n", 3, ()),
+        ("l 1 2 3 4 1", 4, ()),
+    ],
+)
+def test_obj_is_read_as_programs_write_it(tmp_path, text, edges, notes):
+    found = read(written(tmp_path, "a.obj", CUBE_TOP + text), Reading(components=True))
+    assert len(found.frame.edges) == edges
+    if notes is None:
+        notes = ("lines 5, 6, 7: a vertex twice in a row, taken once",)
+    assert found.notes == notes
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "OFF 4 2 0 0 0 0 2 0 0 2 2 0 0 2 0\n3 0 1 2\n3 0 2 3",
+        "OFF\n4 2\n0\n0 0 0 2 0 0\n2 2 0\n0 2\n0 3 0 1 2\n3 0\n2 3\n",
+        "COFF\n4 2 0\n0 0 0 255 0 0 255\n2 0 0 1 1 1 1\n2 2 0 1 1 1\n0 2 0\n3 0 1 2\n3 0 2 3 1\n",
+        "OFF\n4 2 0\n0 0 0 9 9\n2 0 0 9 9\n2 2 0 9 9\n0 2 0 9 9\n3 0 1 2 9 9\n3 0 2 3\n",
+    ],
+)
+def test_off_is_free_text_but_for_the_ends_of_faces(tmp_path, text):
+    frame = read(written(tmp_path, "a.off", text)).frame
+    assert frame.vertices.tolist() == [[0, 0], [2, 0], [0, 2], [2, 2]]
+    assert len(frame.edges) == 5
