@@ -345,7 +345,7 @@ WEAVES = {
 }
 
 BAD_KITS = [
-    ("hexagonl", (), "shows, such as hexagonal, or a file that ends in .dxf, "),
+    ("hexagonl", (), "shows (did you mean hexagonal?), or a file that ends in .dxf, "),
     ("", (), "frame '': must be a name that scadgen frame --list shows, or a file that ends in "),
     ("triangular", ("--key", "fixed"), "key = 'fixed': with pegs that are part of tubes a frame"),
     ("ladder", ("--key", "glued"), "key = 'glued': must be one of fixed, loose"),
@@ -365,7 +365,11 @@ BAD_KITS = [
     ("hexagonal", ("--rows", "-3"), "rows = -3: must be a whole number from 1 to 100"),
     ("hexagonal", ("--columns", "101"), "columns = 101: must be a whole number from 1 to 100"),
     ("hexagonal", ("--rows", "1.5"), "'1.5' is not a valid integer"),
-    ("hexagonal", ("--side", "wide"), "'wide' is not a valid float"),
+    (
+        "hexagonal",
+        ("--side", "wide"),
+        "'wide' is not a length: must be a number of mm, or have a unit, as 8mm",
+    ),
     ("hexagonal", ("--side", "-10"), "side = -10 mm: must be a number from 0"),
     ("hexagonal", ("--side", "nan"), "side = nan mm: must be a number from 0"),
     ("hexagonal", ("--side", "inf"), "side = inf mm: must be a number from 0"),

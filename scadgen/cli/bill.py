@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shlex
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -183,12 +184,8 @@ def _sliced_words(line: Line, density: float) -> tuple[str, str, str]:
 
 def _remade(command: str, material: str) -> str:
     """The command that makes a kit again, of another material."""
-    try:
-        words = shlex.split(command)
-    except ValueError:  # not one of ours
+    if not command:
         return command
-    if "--material" in words[:-1]:
-        words[words.index("--material") + 1] = material
-    elif words:
-        words += ["--material", material]
-    return shlex.join(words)
+    option = f"--material {shlex.quote(material)}"
+    given = re.compile(r"(?<= )--material \w+(?= |$)")
+    return given.sub(option, command) if given.search(command) else f"{command} {option}"

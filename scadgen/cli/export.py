@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from pathlib import Path
 
 import click
 
 from scadgen.cli.console import force_option, kit_files
+from scadgen.cli.words import length, meant
 from scadgen.errors import InputError
 from scadgen.kit.model import Kit
 from scadgen.solid.affine import Range
@@ -49,9 +49,7 @@ def export(
     kind = _kind(kind, output)
     kit = load(folder)
     if part not in kit.parts:
-        near = get_close_matches(part, kit.parts, n=1)
-        hint = f" (did you mean {near[0]}?)" if near else ""
-        msg = f"part = {part!r}: must be one of {', '.join(kit.parts)}{hint}"
+        msg = f"part = {part!r}: must be one of {', '.join(kit.parts)}{meant(part, kit.parts)}"
         raise InputError(msg)
     place = target(output, kit_files(folder), force=force)
     solid = kit.parts[part]
@@ -114,12 +112,15 @@ def settings(
             )
             raise InputError(msg)
         if not equals or name not in values:
-            msg = f"--set {change}: must be NAME=MM with NAME one of {', '.join(values)}"
+            msg = (
+                f"--set {change}: must be NAME=MM with NAME one of {', '.join(values)}"
+                f"{meant(name, values)}"
+            )
             raise InputError(msg)
         try:
-            values[name] = float(text)
-        except ValueError as error:
-            msg = f"--set {change}: {text!r} is not a number of mm"
-            raise InputError(msg) from error
+            values[name] = length(text)
+        except InputError as error:
+            msg = f"--set {change}: {error}"
+            raise InputError(msg) from None
     check_values([*kit.ranges, *others], values)
     return values

@@ -12,6 +12,7 @@ import click
 from scadgen.cli.console import force_option, status, table
 from scadgen.cli.frame_report import SIDES, report, show
 from scadgen.cli.frame_source import has_cells, load_frame, option, source_options
+from scadgen.cli.words import LENGTH
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ _FILE = click.Path(path_type=Path)
 @click.command(short_help="Look at a frame, named or drawn.")
 @click.argument("name", metavar="FRAME", required=False)
 @click.option("--list", "listing", is_flag=True, help="List the named frames, with their options.")
-@click.option("--side", type=float, metavar="MM", help="Say whether it can be built at this side.")
+@click.option("--side", type=LENGTH, metavar="MM", help="Say whether it can be built at this side.")
 @click.option(
     "--ring-ratio",
     type=float,
@@ -38,7 +39,7 @@ _FILE = click.Path(path_type=Path)
     "--snap-angle", type=float, metavar="DEG", help="Turn edges by this much for fewer kinds."
 )
 @click.option(
-    "--snap-length", type=float, metavar="MM", help="Change lengths by this much for fewer kinds."
+    "--snap-length", type=LENGTH, metavar="MM", help="Change lengths by this much for fewer kinds."
 )
 @source_options()
 @click.option("-o", "--output", type=_FILE, help="Write the frame as JSON.")

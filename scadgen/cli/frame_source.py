@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import replace
-from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from scadgen.cli.words import LENGTH, length, meant
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 __all__ = ["has_cells", "load_frame", "option", "source_options"]
 
 #: Options of families: type, metavar, what it means; as in the catalogue.
-_FAMILY: dict[str, tuple[type, str, str]] = {
-    "edge_length": (float, "MM", "length of the shortest edges, in mm"),
+_FAMILY: dict[str, tuple[type | click.ParamType[float], str, str]] = {
+    "edge_length": (LENGTH, "MM", "length of the shortest edges, in mm"),
     "rows": (int, "N", "cells up"),
     "columns": (int, "N", "cells across"),
     "radius": (
-        float,
+        LENGTH,
         "MM",
         "radius of a circle to fill instead of rows and columns, in mm, with whole tiles",
     ),
@@ -33,29 +33,31 @@ _FAMILY: dict[str, tuple[type, str, str]] = {
         '"X,Y ..."',
         "corners of a polygon to fill instead of rows and columns, in mm, with whole tiles",
     ),
-    "width": (float, "MM", "width of a rectangle or ladder, in mm"),
-    "height": (float, "MM", "height of a rectangle, in mm"),
+    "width": (LENGTH, "MM", "width of a rectangle or ladder, in mm"),
+    "height": (LENGTH, "MM", "height of a rectangle, in mm"),
     "angle": (float, "DEG", "angle of a rhomb at its lower left, in degrees"),
     "sides": (int, "N", "sides of the polygon"),
     "bays": (int, "N", "rectangles in a row"),
-    "bay_length": (float, "MM", "distance of the rungs, in mm"),
+    "bay_length": (LENGTH, "MM", "distance of the rungs, in mm"),
     "triangles": (int, "N", "triangles in a row"),
 }
 
 _DRAWINGS = (".dxf", ".svg")
 
 #: Options of files: type, metavar, what it means, and kinds of files if not all.
-_READING: dict[str, tuple[type, str | None, str, tuple[str, ...] | None]] = {
-    "scale": (float, "MM", "millimetres per unit.  [default: what the file says]", None),
+_READING: dict[
+    str, tuple[type | click.ParamType[float], str | None, str, tuple[str, ...] | None]
+] = {
+    "scale": (LENGTH, "MM", "millimetres per unit.  [default: what the file says]", None),
     "unit": (str, "NAME", "the unit instead, by its name: mm, cm, m, inch, foot.", None),
     "centre": (bool, None, "move the middle of the frame to 0.", None),
     "tolerance": (
-        float,
+        LENGTH,
         "MM",
         "ends nearer than this are one; a mesh may be this far from plane.  [default: 0.01]",
         (*_DRAWINGS, ".obj", ".off"),
     ),
-    "flatten": (float, "MM", "segments are this near to their curve.  [default: 0.05]", _DRAWINGS),
+    "flatten": (LENGTH, "MM", "segments are this near to their curve.  [default: 0.05]", _DRAWINGS),
     "repair": (
         bool,
         None,
@@ -70,7 +72,7 @@ _READING: dict[str, tuple[type, str | None, str, tuple[str, ...] | None]] = {
         (*_DRAWINGS, ".obj"),
     ),
     "components": (bool, None, "allow several parts that are not connected.", None),
-    "shortest": (float, "MM", "refuse edges shorter than this.", None),
+    "shortest": (LENGTH, "MM", "refuse edges shorter than this.", None),
     "most": (int, "N", "allow this many vertices, segments or edges.  [default: 100000]", None),
 }
 
@@ -93,7 +95,7 @@ def source_options(
     def add(function: Callable[..., Any]) -> Callable[..., Any]:
         function = click.option(
             "--snap",
-            type=float,
+            type=LENGTH,
             metavar="MM",
             help="Move vertices by up to this, so that lengths and angles that are nearly the same "
             "are the same.",
@@ -174,11 +176,9 @@ def _load(name: str, given: dict[str, Any]) -> Read:
     path = Path(name)
     kind = path.suffix.lower()
     if kind not in READERS:
-        near = get_close_matches(name, [*NAMES, *ALIASES], n=1)
-        meant = f", such as {near[0]}" if near else ""
         msg = (
-            f"frame {name!r}: must be a name that scadgen frame --list shows{meant}, or a file "
-            f"that ends in {', '.join(READERS)}"
+            f"frame {name!r}: must be a name that scadgen frame --list shows"
+            f"{meant(name, [*NAMES, *ALIASES])}, or a file that ends in {', '.join(READERS)}"
         )
         raise InputError(msg)
     taken = [
@@ -200,7 +200,8 @@ def _load(name: str, given: dict[str, Any]) -> Read:
         given["split"] = False
     found = read(path, Reading(**given))
     # What a file is called may not do as a frame's name in JSON.
-    plain = re.sub(r"[^\w. -]", "_", found.frame.name)[:100]
+    called = found.frame.name.encode(errors="surrogateescape").decode(errors="replace")
+    plain = re.sub(r"[^\w. -]", "_", called)[:100]
     return replace(found, frame=replace(found.frame, name=plain))
 
 
@@ -212,8 +213,8 @@ def option(name: str) -> str:
 def _corners(text: str) -> list[list[float]]:
     """Corners of an outline, as they are typed."""
     try:
-        corners = [[float(number) for number in pair.split(",")] for pair in text.split()]
-    except ValueError:
+        corners = [[length(number) for number in pair.split(",")] for pair in text.split()]
+    except InputError:
         corners = []
     if len(corners) < 3 or {len(corner) for corner in corners} != {2}:
         msg = f'outline = {text!r}: must be 3 or more corners such as "0,0 300,0 150,200", in mm'

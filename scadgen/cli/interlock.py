@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from scadgen.cli.console import force_option, status, table
+from scadgen.cli.words import LENGTH, meant
 from scadgen.errors import InputError, InvariantError
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ _FILE = click.Path(path_type=Path)
 )
 @click.option(
     "--tolerance",
-    type=float,
+    type=LENGTH,
     metavar="MM",
     help="Distance up to which faces touch.  [default: 1 % of the median part's diagonal]",
 )
@@ -137,7 +138,7 @@ def _held(names: list[str], meshes: list[Mesh], hold: tuple[str, ...]) -> list[i
     chosen = [name.strip() for name in itertools.chain(*lists)]
     for name in chosen:
         if name not in names:
-            msg = f"--hold {name}: must be one of {', '.join(names)}"
+            msg = f"--hold {name}: must be one of {', '.join(names)}{meant(name, names)}"
             raise InputError(msg)
     if len(set(chosen)) == len(names):
         msg = f"--hold {','.join(hold)}: holds all parts; leave at least one free"

@@ -14,6 +14,7 @@ import click
 from scadgen.cli.console import Bar, counted, force_option, progress
 from scadgen.cli.frame_source import source_options
 from scadgen.cli.kit_request import kit_request
+from scadgen.cli.words import LENGTH
 
 if TYPE_CHECKING:
     from scadgen.kit.build import Request
@@ -56,7 +57,7 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
         function = click.option(
             option,
             name,
-            type=float,
+            type=LENGTH,
             metavar="MM",
             help=f"{what.capitalize()}.  [default: {default}]",
         )(function)
@@ -147,7 +148,7 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
 
     Writes kit.json, an OpenSCAD file with sliders, a Makefile, a README and a preview, all or
     nothing, once it is proved that every joint locks and comes apart without its pegs.  Lengths
-    are in mm.
+    are in mm, or have a unit: 8, 8mm, 0.8cm or 0.3in.
 
     \b
     scadgen kit hexagonal -o out/hexagonal
@@ -229,8 +230,12 @@ def _say(made: Kit, folder: Path, notes: Sequence[str]) -> None:
 
 def _command() -> str:
     """The command line that makes the kit again: what was given, but where to."""
+    from scadgen.emit.shell import shell_line
+
     context = click.get_current_context()
-    words = ["scadgen", "kit", str(context.params["frame"])]
+    frame = str(context.params["frame"])
+    # A name that begins so would be an option.
+    words = ["scadgen", "kit", f"./{frame}" if frame.startswith("-") else frame]
     for parameter in context.command.params:
         name = parameter.name or ""
         given = context.get_parameter_source(name) != click.core.ParameterSource.DEFAULT
@@ -239,4 +244,4 @@ def _command() -> str:
             words.append(parameter.opts[-1])
             if value is not True:  # a flag is its option alone
                 words.append(repr(value) if isinstance(value, float) else str(value))
-    return shlex.join(words)
+    return shell_line(words)

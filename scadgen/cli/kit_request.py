@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from scadgen.cli.frame_source import has_cells, load_frame, option
+from scadgen.cli.words import meant
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -148,7 +149,10 @@ def _weave(name: str) -> Any:  # noqa: ANN401  imported late: the import takes a
     try:
         entries = json.loads(read_regular(path, _LONGEST_WEAVE))
     except OSError as error:
-        msg = f"weave {name!r}: neither a file nor one of {', '.join(BUILT_IN)} ({error.strerror})"
+        msg = (
+            f"weave {name!r}: neither a file nor one of {', '.join(BUILT_IN)}"
+            f"{meant(name, BUILT_IN)} ({error.strerror})"
+        )
         raise InputError(msg) from error
     except InputError as error:
         msg = f"weave {name!r}: {error}"

@@ -10,6 +10,7 @@ from pathlib import Path
 import click
 
 from scadgen.cli.console import status, table, timeout_option
+from scadgen.cli.words import meant
 from scadgen.errors import InputError
 
 __all__ = ["render"]
@@ -54,7 +55,7 @@ def render(
     known = (*kit.parts, *views(kit))
     for part in parts:
         if part not in known:
-            msg = f"part = {part!r}: must be one of {', '.join(known)}"
+            msg = f"part = {part!r}: must be one of {', '.join(known)}{meant(part, known)}"
             raise InputError(msg)
     values = settings(kit, changes, (HEIGHT,))
     target = folder / kind
