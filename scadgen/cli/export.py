@@ -54,7 +54,7 @@ def export(
     place = target(output, kit_files(folder), force=force)
     solid = kit.parts[part]
     points = solid.points(settings(kit, changes))
-    place.put(mesh_bytes(points, solid.triangles, kind), kind)
+    place.put(mesh_bytes(points, solid.triangles, kind, part), kind)
     click.echo(f"{click.format_filename(output)}: {part}, {len(solid.triangles)} triangles")
 
 
