@@ -514,7 +514,7 @@ def test_no_kit_is_refused_by_every_command(refused, tmp_path):
         (("--part", "half", "--set", "gear=3"), "--set gear=3: must be NAME=MM with NAME one of"),
         (("--part", "half", "--set", "side"), "--set side: must be NAME=MM"),
         (("--part", "half", "--set", "bore=2"), "--set bore=2: must be NAME=MM"),
-        (("--part", "half", "--set", "side=wide"), "--set side=wide: 'wide' is not a number"),
+        (("--part", "half", "--set", "side=wide"), "--set side=wide: 'wide' is not a length"),
         (("--part", "half", "--set", "side=nan"), "side = nan: must be a finite number"),
         (("--part", "half", "--set", "side=1e999"), "side = inf: must be a finite number"),
         (("--part", "half", "--set", "clearance=3"), "clearance = 3 mm: must be 0 to "),

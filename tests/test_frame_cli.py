@@ -368,7 +368,7 @@ def test_names_of_joints_go_on_after_z():
         ((), "FRAME: is missing"),
         (("cairo", "--list"), "--list with FRAME 'cairo': give one of them"),
         (("circle",), "--list shows, or a file that ends in .dxf, .json, .obj, .off, .svg"),
-        (("kagomee",), "shows, such as kagome, or a file"),
+        (("kagomee",), "shows (did you mean kagome?), or a file"),
         (("drawing.svg",), "drawing.svg: cannot be read: No such file"),
         (("ring", "--rows", 2), "frame ring: no option --rows; it has --sides, --edge-length"),
         (("ring", "--scale", 2), "frame ring: no option --scale"),
@@ -425,3 +425,40 @@ def test_a_kit_is_refused_for_what_frame_says_of_edges_all_but_along_each_other(
     assert "the vertex at (10, 390), angles " in err
     assert f": {said}\n" in err
     assert not (tmp_path / "kit").exists()
+
+
+CIRCLE = (
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 400 400" width="400mm" height="400mm">'
+    '<circle cx="200" cy="200" r="{}" fill="none" stroke="#000"/></svg>'
+)
+
+
+@pytest.mark.parametrize(("radius", "side"), [(129, 10), (129, 6), (190, 10), (40, 8)])
+def test_curves_have_as_many_segments_as_joints_have_room_for(said, tmp_path, radius, side):
+    path = tmp_path / "circle.svg"
+    path.write_text(CIRCLE.format(radius))
+    fine = said(path, "--side", side, "--flatten", 0.05, code=1)
+    assert fine["largest_side"] < side
+    # A circle of 40 has no room for joints of 8, however coarse it is: as fine as ever then.
+    fits = radius > 100
+    found = said(path, "--side", side, code=0 if fits else 1)
+    assert any("--flatten" in note for note in found["notes"])
+    if not fits:
+        assert found["edges"] == fine["edges"]
+        return
+    assert found["largest_side"] >= side
+    assert 4 <= found["edges"] < fine["edges"]
+    # A segment more in each quarter would be too many.
+    chord = 2 * radius * math.sin(math.pi / (found["edges"] + 4))
+    needed = found["kinds_of_edges"][0]["length"] * side / found["largest_side"]
+    assert chord < needed
+
+
+def test_a_kit_of_a_curve_that_is_too_fine_names_what_helps(tmp_path, capsys):
+    path = tmp_path / "circle.svg"
+    path.write_text(CIRCLE.format(129))
+    with pytest.raises(SystemExit):
+        main(["kit", str(path), "--flatten", "0.05", "-o", str(tmp_path / "kit")])
+    assert (
+        "; a larger --flatten makes the segments of its curves longer\n" in capsys.readouterr().err
+    )

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from scadgen.cli.console import force_option, status, table
+from scadgen.cli.curves import share_of_room
 from scadgen.cli.frame_report import SIDES, report, show
 from scadgen.cli.frame_source import has_cells, load_frame, option, source_options
 from scadgen.cli.words import LENGTH
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
     from scadgen.frame.sameness import Sameness, Snapped
 
 __all__ = ["frame"]
+
+#: The side of a kit's tubes where none is given, in mm.
+_USUAL_SIDE = 10.0
 
 _FILE = click.Path(path_type=Path)
 
@@ -99,7 +103,8 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     family = NAMES.get(ALIASES.get(name, name))
     regular = family is not None and family.regular and has_cells(name, given)
     with status("looking at the frame"):
-        read = load_frame(name, options)
+        wanted = _USUAL_SIDE if side is None else side
+        read = load_frame(name, options, lambda drawn: share_of_room(drawn, wanted))
         if regular and ring_ratio is None:
             ring_ratio = built_in(int(read.frame.degree.max()), "fixed").ring_ratio
         kinds = _kinds(read.frame, snap_angle, snap_length)

@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from scadgen.cli.curves import roomiest
 from scadgen.cli.words import LENGTH, length, meant
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
+    from scadgen.frame.graph import Frame
     from scadgen.readers.reading import Read
 
 __all__ = ["has_cells", "load_frame", "option", "source_options"]
@@ -57,7 +59,12 @@ _READING: dict[
         "ends nearer than this are one; a mesh may be this far from plane.  [default: 0.01]",
         (*_DRAWINGS, ".obj", ".off"),
     ),
-    "flatten": (LENGTH, "MM", "segments are this near to their curve.  [default: 0.05]", _DRAWINGS),
+    "flatten": (
+        LENGTH,
+        "MM",
+        "segments are this near to their curve.  [default: 0.05, or as joints have room for]",
+        _DRAWINGS,
+    ),
     "repair": (
         bool,
         None,
@@ -132,7 +139,9 @@ def has_cells(name: str, options: Iterable[str]) -> bool:
     return family is not None and "rows" in family.options and {*options} <= shaped
 
 
-def load_frame(name: str, options: Mapping[str, Any]) -> Read:
+def load_frame(
+    name: str, options: Mapping[str, Any], room: Callable[[Frame], float] | None = None
+) -> Read:
     """Make or read a frame.
 
     Parameters
@@ -141,6 +150,9 @@ def load_frame(name: str, options: Mapping[str, Any]) -> Read:
         What was named: a frame or a file.
     options
         What `source_options` gave.
+    room
+        The share of the room that a frame's joints have, at 1 enough: curves of drawings are as
+        fine as that allows, unless it is said how fine.
 
     Raises
     ------
@@ -150,7 +162,7 @@ def load_frame(name: str, options: Mapping[str, Any]) -> Read:
     """
     given = {k: v for k, v in options.items() if v is not None and v is not False}
     within = given.pop("snap", None)
-    found = _load(name, given)
+    found = _load(name, given, room)
     if within is None:
         return found
     from scadgen.frame.snapping import move_vertices
@@ -160,7 +172,7 @@ def load_frame(name: str, options: Mapping[str, Any]) -> Read:
     return Read(moved.frame, (*found.notes, *moved.notes), found.places)
 
 
-def _load(name: str, given: dict[str, Any]) -> Read:
+def _load(name: str, given: dict[str, Any], room: Callable[[Frame], float] | None) -> Read:
     """Make or read a frame as it is."""
     from scadgen.frame.catalogue import ALIASES, NAMES, named
     from scadgen.readers.read import READERS, read
@@ -198,7 +210,12 @@ def _load(name: str, given: dict[str, Any]) -> Read:
         given["scale"] = unit(given.pop("unit"))
     if given.pop("no_split", False):
         given["split"] = False
-    found = read(path, Reading(**given))
+    how = Reading(**given)
+    found = read(path, how)
+    if room is not None and kind in _DRAWINGS and "flatten" not in given:
+        found = roomiest(
+            found, how.flatten, lambda within: read(path, replace(how, flatten=within)), room
+        )
     # What a file is called may not do as a frame's name in JSON.
     called = found.frame.name.encode(errors="surrogateescape").decode(errors="replace")
     plain = re.sub(r"[^\w. -]", "_", called)[:100]

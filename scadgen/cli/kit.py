@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import shlex
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,6 +16,7 @@ from scadgen.cli.console import Bar, counted, force_option, progress
 from scadgen.cli.frame_source import source_options
 from scadgen.cli.kit_request import kit_request
 from scadgen.cli.words import LENGTH
+from scadgen.errors import GeometryError, JointError
 
 if TYPE_CHECKING:
     from scadgen.kit.build import Request
@@ -169,7 +171,11 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
     read = [Path(frame), *([Path(options["weave"])] if options["weave"] else [])]
     check_folder(folder, request.name, read, force=force)
     told: list[str] = []
-    with hired(jobs, dask, told.append) as crew, progress(f"making {folder}") as bar:
+    with (
+        _told_of_curves(notes),
+        hired(jobs, dask, told.append) as crew,
+        progress(f"making {folder}") as bar,
+    ):
         means = Means(crew, None if no_cache else Cache(default_folder()))
         made, done = _made(request, means, bar, unchecked=unchecked)
         write = bar.steps(done, 1.0, _FILES)
@@ -190,6 +196,21 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
         click.echo(json.dumps(said, indent=1))
     else:
         _say(made, folder, notes)
+
+
+@contextmanager
+def _told_of_curves(notes: Sequence[str]) -> Iterator[None]:
+    """Say what helps if there is no room for joints in a drawing that has curves."""
+    from scadgen.readers.curves import CURVED
+
+    try:
+        yield
+    except GeometryError as error:
+        # A joint that is not proved is no matter of room.
+        if isinstance(error, JointError) or not any(note.startswith(CURVED) for note in notes):
+            raise
+        msg = f"{error}; a larger --flatten makes the segments of its curves longer"
+        raise GeometryError(msg) from error
 
 
 def _made(request: Request, means: Means, bar: Bar, *, unchecked: bool) -> tuple[Kit, float]:
