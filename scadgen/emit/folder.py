@@ -54,7 +54,8 @@ def _own(folder: Path) -> tuple[str, ...]:
     if not (folder / "kit.json").is_file():
         return ()
     with (folder / "kit.json").open("rb") as file:
-        found = re.search(rb'\n "frame": ("[^"\n]*")', file.read(_START))
+        # Kits of older versions call it their frame.
+        found = re.search(rb'\n "(?:name|frame)": ("[^"\n]*")', file.read(_START))
     return _names(json.loads(found[1])) if found else _names("kit")
 
 
