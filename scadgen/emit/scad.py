@@ -16,6 +16,7 @@ from scadgen.emit.picture import COLOURS
 from scadgen.emit.scad_numbers import HIGHEST, tubes
 from scadgen.emit.scad_parameters import parameter_sets, sections
 from scadgen.emit.scad_text import comment, expression, faces, number, quoted, table
+from scadgen.emit.shell import in_ascii
 from scadgen.emit.templates import environment
 from scadgen.errors import InvariantError
 from scadgen.frame.placement import Placement
@@ -53,7 +54,7 @@ def scad(kit: Kit) -> str:
         title=f"{comment(kit.name).capitalize()} frame of interlocking edge elements",
         purpose="Parts of a planar truss, a joint, print plates, the whole frame, and a coupon.",
         version=__version__,
-        command=comment(kit.command),
+        command=comment(in_ascii(kit.command)),
         key=kit.key,
         joints=[_joint(one) for one in kit.joints],
         proved=kit.proved,
