@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from scadgen.joint.curve import SiteCurve, slopes
-from scadgen.joint.walls import Key, Wedge
+from scadgen.joint.walls import Feature, Wedge
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.vectors import cross
 
@@ -22,7 +22,7 @@ _DECIMALS = 9
 
 
 def fanned(
-    walls: Sequence[Wedge], position: dict[Key, Floats], curves: Sequence[SiteCurve]
+    walls: Sequence[Wedge], position: dict[Feature, Floats], curves: Sequence[SiteCurve]
 ) -> list[Wedge]:
     """The polygons, each starting at the corner from which it is to be cut into a fan.
 

@@ -1,0 +1,224 @@
+"""The domain of a joint: what its connectors divide among them, a polyhedron.
+
+It is the slab |z| <= 1/2 around the ring, less a prism, the ring's hole.  Towards each edge it has
+a flat, on which the edge's tube stands square to the edge: with the slope b the plane
+
+    r cos b - z sin b = R cos b + t
+
+where r is the distance from the axis along the edge's azimuth, and t what makes a flat of slope 0
+exactly one side wide.  Between two flats of one slope all faces are those of one pyramid, whose
+apex is on the axis, or of a prism where the slope is 0; so the lines in which they meet lie in
+planes through the axis.  Between flats whose slopes differ the slope goes evenly with the angle;
+there outlines above and below are joined by triangles, for no other faces would be plane.
+
+Lengths are in units of the side, angles in radians.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from scadgen.errors import GeometryError
+from scadgen.joint.spokes import Spokes
+from scadgen.solid.affine import Floats
+
+__all__ = ["Domain", "Face", "Flats", "check_room", "flats_of"]
+
+#: What a sloped flat leaves beside its tube at least, in sides; less where the slope is so small
+#: that it leaves less above and below.
+_LEDGE = 0.02
+
+#: Two tubes keep apart at any ring ratio that is more than this over their gap.
+_WIDE = 4.0
+
+
+class Face(NamedTuple):
+    """Where a square stands in space.
+
+    Parameters
+    ----------
+    position
+        ``(3,) float``: its middle.
+    axes
+        ``(3, 3) float``: rows are the way out, the way counter-clockwise around the ring, and the
+        way up.
+    """
+
+    position: Floats
+    axes: Floats
+
+
+class Flats(NamedTuple):
+    """The flats of a joint's edges, at z = 0, ``(k,) float`` each.
+
+    Parameters
+    ----------
+    distance
+        From the axis.
+    half_width
+        Half of how wide they are.
+    """
+
+    distance: Floats
+    half_width: Floats
+
+    @property
+    def corner(self) -> Floats:
+        """Distance of their ends from the axis."""
+        return np.hypot(self.distance, self.half_width)
+
+    @property
+    def half_angle(self) -> Floats:
+        """Angle from an edge to the ends of its flat."""
+        return np.arctan2(self.half_width, self.distance)
+
+
+def flats_of(slopes: Floats, ring_ratio: float) -> Flats:
+    """The flats of edges.
+
+    Each is as wide as holds a square of one side, around its middle, at every height.
+
+    Parameters
+    ----------
+    slopes
+        ``(k,) float``.
+    ring_ratio
+        Radius of the ring's centre line.
+    """
+    beyond = math.sqrt((ring_ratio + 0.5) ** 2 - 0.25) - ring_ratio
+    distance = ring_ratio + beyond / np.cos(slopes)
+    ledge = np.minimum((1 / np.cos(slopes) - 1) / 2, _LEDGE)
+    # It narrows upwards or downwards, as the faces of a pyramid do.
+    narrow = 1 - np.abs(np.sin(slopes)) / (2 * distance)
+    return Flats(distance, (0.5 + ledge) / narrow)
+
+
+@dataclass(frozen=True, eq=False)
+class Domain:
+    """A joint's domain.
+
+    Parameters
+    ----------
+    spokes
+        The joint's edges.
+    ring_ratio
+        Radius of the ring's centre line.
+    inner
+        ``(n,) float``: azimuths of the upright lines in which faces of the hole meet, ascending.
+    outer
+        ``(m, 2) float``: azimuths of the lower and the upper ends of the lines in which outer faces
+        meet, ascending.  Any two that follow each other are in one plane.
+    """
+
+    spokes: Spokes
+    ring_ratio: float
+    inner: Floats
+    outer: Floats
+
+    @cached_property
+    def flats(self) -> Flats:
+        """The flats of its edges."""
+        return flats_of(self.spokes.slopes, self.ring_ratio)
+
+    def tube_face(self, edge: int) -> Face:
+        """Where an edge's tube starts: the middle of its square, and which way the edge goes."""
+        azimuth, slope = float(self.spokes.azimuths[edge]), float(self.spokes.slopes[edge])
+        out = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
+        along = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
+        axis = np.array([0.0, 0.0, 1.0])
+        c, s = math.cos(slope), math.sin(slope)
+        return Face(
+            float(self.flats.distance[edge]) * out,
+            np.stack([c * out - s * axis, along, s * out + c * axis]),
+        )
+
+    def pad(self, edge: int) -> tuple[float, float]:
+        """Distance of the hole's flat opposite an edge from the axis, and half its width."""
+        after = float(((self.inner - self.spokes.azimuths[edge]) % (2 * np.pi)).min())
+        radius = self.ring_ratio - 0.5
+        return radius * math.cos(after), radius * math.sin(after)
+
+    def hole(self, azimuths: Floats) -> Floats:
+        """Points of the hole's outline in plan, ``(n, 2)``, in these directions."""
+        radius = np.full(len(self.inner), self.ring_ratio - 0.5)
+        return _on_outline(azimuths, self.inner, radius)
+
+    def outside(self, azimuths: Floats) -> Floats:
+        """Points of the lower and the upper outer outline in plan, ``(n, 2, 2)``.
+
+        Parameters
+        ----------
+        azimuths
+            ``(n, 2) float``: the directions in which they are, below and above.
+        """
+        slope = self._slope(self.outer)
+        flats = flats_of(slope, self.ring_ratio)
+        radius = flats.corner * (1 + np.array([-0.5, 0.5]) * np.tan(slope) / flats.distance)
+        ends = []
+        for side in (0, 1):
+            corners, first = np.unique(self.outer[:, side], return_index=True)
+            ends.append(_on_outline(azimuths[:, side], corners, radius[first, side]))
+        return np.stack(ends, axis=1)
+
+    def _slope(self, azimuths: Floats) -> Floats:
+        """Slope of the outside in some directions."""
+        edges, half = self.spokes.azimuths, self.flats.half_angle
+        at = np.column_stack([edges - half, edges + half]).ravel()
+        slopes = np.repeat(self.spokes.slopes, 2)
+        return np.asarray(np.interp(azimuths, at, slopes, period=2 * np.pi))
+
+    def volume(self) -> float:
+        """Volume, from the lines in which its faces meet alone, in cubic sides."""
+        lower, upper = self.outside(self.outer).swapaxes(0, 1)
+        # Outlines at a height have corners that go evenly with it: their area is a quadratic.
+        around = _area(lower) + 4 * _area((lower + upper) / 2) + _area(upper)
+        return around / 6 - _area(self.hole(self.inner))
+
+
+def check_room(spokes: Spokes, ring_ratio: float) -> None:
+    """Refuse a ring that is too small for its tubes.
+
+    Raises
+    ------
+    GeometryError
+        Two tubes would overlap where they leave the ring.
+    """
+
+    def room(ratio: float) -> Floats:
+        half = flats_of(spokes.slopes, ratio).half_angle
+        return spokes.gaps - half - np.roll(half, -1)
+
+    left = room(ring_ratio)
+    if (left <= 0).any():
+        enough = ring_ratio + _WIDE / float(spokes.gaps.min())
+        need = float(brentq(lambda ratio: room(ratio).min(), ring_ratio, enough))
+        gap = math.degrees(float(spokes.gaps[left.argmin()]))
+        msg = (
+            f"ring_ratio = {ring_ratio:g}: two tubes overlap {gap:.4g} degrees apart; "
+            f"it must be at least {need:.4g}"
+        )
+        raise GeometryError(msg)
+
+
+def _on_outline(azimuths: Floats, corners: Floats, radii: Floats) -> Floats:
+    """Points in some directions, ``(n, 2)``, of the polygon with these corners."""
+    around = np.concatenate([corners[-1:] - 2 * np.pi, corners, corners[:1] + 2 * np.pi])
+    far = np.concatenate([radii[-1:], radii, radii[:1]])
+    after = np.searchsorted(around, azimuths, side="right")
+    low, high = around[after - 1], around[after]
+    near, away = far[after - 1], far[after]
+    radius = near * away * np.sin(high - low)
+    radius /= near * np.sin(azimuths - low) + away * np.sin(high - azimuths)
+    return np.column_stack([radius * np.cos(azimuths), radius * np.sin(azimuths)])
+
+
+def _area(corners: Floats) -> float:
+    """Area of a polygon, by the shoelace formula."""
+    x, y = corners.T
+    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
