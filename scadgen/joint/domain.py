@@ -22,6 +22,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from scadgen.errors import GeometryError
@@ -59,30 +60,31 @@ class Flats(NamedTuple):
 
     Parameters
     ----------
-    distance
-        From the axis.
+    corner
+        Distance of their ends from the axis.
     half_width
         Half of how wide they are.
     """
 
-    distance: Floats
+    corner: Floats
     half_width: Floats
 
     @property
-    def corner(self) -> Floats:
-        """Distance of their ends from the axis."""
-        return np.hypot(self.distance, self.half_width)
+    def distance(self) -> Floats:
+        """Distance of their middles from the axis, where tubes start."""
+        return np.asarray(np.sqrt(self.corner**2 - self.half_width**2))
 
     @property
     def half_angle(self) -> Floats:
         """Angle from an edge to the ends of its flat."""
-        return np.arctan2(self.half_width, self.distance)
+        return np.array([math.asin(share) for share in (self.half_width / self.corner).tolist()])
 
 
 def flats_of(slopes: Floats, ring_ratio: float) -> Flats:
     """The flats of edges.
 
-    Each is as wide as holds a square of one side, around its middle, at every height.
+    Each is as wide as holds a square of one side, around its middle, at every height.  Where all is
+    level their ends are exactly half a side from the ring's centre line.
 
     Parameters
     ----------
@@ -91,12 +93,14 @@ def flats_of(slopes: Floats, ring_ratio: float) -> Flats:
     ring_ratio
         Radius of the ring's centre line.
     """
-    beyond = math.sqrt((ring_ratio + 0.5) ** 2 - 0.25) - ring_ratio
-    distance = ring_ratio + beyond / np.cos(slopes)
+    round_ = ring_ratio + 0.5
+    level = math.sqrt(round_**2 - 0.25)
+    distance = ring_ratio + (level - ring_ratio) / np.cos(slopes)
     ledge = np.minimum((1 / np.cos(slopes) - 1) / 2, _LEDGE)
     # It narrows upwards or downwards, as the faces of a pyramid do.
-    narrow = 1 - np.abs(np.sin(slopes)) / (2 * distance)
-    return Flats(distance, (0.5 + ledge) / narrow)
+    half_width = (0.5 + ledge) / (1 - np.abs(np.sin(slopes)) / (2 * distance))
+    farther = np.hypot(distance, half_width) - math.hypot(level, 0.5)
+    return Flats(np.where(slopes == 0, round_, round_ + farther), half_width)
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,17 +149,22 @@ class Domain:
         return radius * math.cos(after), radius * math.sin(after)
 
     def hole(self, azimuths: Floats) -> Floats:
-        """Points of the hole's outline in plan, ``(n, 2)``, in these directions."""
+        """Distance of the hole's outline from the axis in these directions, ``(n,)``."""
         radius = np.full(len(self.inner), self.ring_ratio - 0.5)
-        return _on_outline(azimuths, self.inner, radius)
+        return _reach(azimuths, self.inner, radius)
 
     def outside(self, azimuths: Floats) -> Floats:
-        """Points of the lower and the upper outer outline in plan, ``(n, 2, 2)``.
+        """Distance of the outer outline from the axis.
 
         Parameters
         ----------
         azimuths
-            ``(n, 2) float``: the directions in which they are, below and above.
+            ``(n, 2) float``: directions in which it is wanted at its lower and its upper end.
+
+        Returns
+        -------
+        distance
+            ``(n, 2) float``.
         """
         slope = self._slope(self.outer)
         flats = flats_of(slope, self.ring_ratio)
@@ -163,7 +172,7 @@ class Domain:
         ends = []
         for side in (0, 1):
             corners, first = np.unique(self.outer[:, side], return_index=True)
-            ends.append(_on_outline(azimuths[:, side], corners, radius[first, side]))
+            ends.append(_reach(azimuths[:, side], corners, radius[first, side]))
         return np.stack(ends, axis=1)
 
     def _slope(self, azimuths: Floats) -> Floats:
@@ -175,10 +184,11 @@ class Domain:
 
     def volume(self) -> float:
         """Volume, from the lines in which its faces meet alone, in cubic sides."""
-        lower, upper = self.outside(self.outer).swapaxes(0, 1)
+        lower, upper = (self.outside(self.outer) * np.exp(1j * self.outer)).T
+        hole = self.hole(self.inner) * np.exp(1j * self.inner)
         # Outlines at a height have corners that go evenly with it: their area is a quadratic.
         around = _area(lower) + 4 * _area((lower + upper) / 2) + _area(upper)
-        return around / 6 - _area(self.hole(self.inner))
+        return around / 6 - _area(hole)
 
 
 def check_room(spokes: Spokes, ring_ratio: float) -> None:
@@ -206,19 +216,18 @@ def check_room(spokes: Spokes, ring_ratio: float) -> None:
         raise GeometryError(msg)
 
 
-def _on_outline(azimuths: Floats, corners: Floats, radii: Floats) -> Floats:
-    """Points in some directions, ``(n, 2)``, of the polygon with these corners."""
+def _reach(azimuths: Floats, corners: Floats, radii: Floats) -> Floats:
+    """Distance of a polygon from the axis in some directions, by its corners there."""
     around = np.concatenate([corners[-1:] - 2 * np.pi, corners, corners[:1] + 2 * np.pi])
     far = np.concatenate([radii[-1:], radii, radii[:1]])
     after = np.searchsorted(around, azimuths, side="right")
-    low, high = around[after - 1], around[after]
-    near, away = far[after - 1], far[after]
-    radius = near * away * np.sin(high - low)
-    radius /= near * np.sin(azimuths - low) + away * np.sin(high - azimuths)
-    return np.column_stack([radius * np.cos(azimuths), radius * np.sin(azimuths)])
+    low, high, near, away = around[after - 1], around[after], far[after - 1], far[after]
+    half, off = (high - low) / 2, azimuths - (high + low) / 2
+    # Written so that nothing but the chord of a circle is left where its ends are equally far.
+    tilt = (near - away) / (near + away) * np.sin(off) / np.tan(half)
+    return np.asarray(near * (2 * away / (near + away)) * (np.cos(half) / (np.cos(off) + tilt)))
 
 
-def _area(corners: Floats) -> float:
-    """Area of a polygon, by the shoelace formula."""
-    x, y = corners.T
-    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+def _area(corners: NDArray[np.complex128]) -> float:
+    """Area of a polygon, its corners as x + iy, by the shoelace formula."""
+    return float((corners.conj() * np.roll(corners, -1)).imag.sum()) / 2

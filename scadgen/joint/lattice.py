@@ -253,13 +253,14 @@ def _with_corners(
     strips = np.cumsum(corner, axis=1, dtype=np.int64)
     strips[strips == strips[:, -1:]] = 0
     share = np.linspace(0, 1, cells + 1)
-    inside, outside = domain.hole(planes), domain.outside(planes[ends])
-    rise = outside[:, 1] - outside[:, 0]
-    outside = outside[:, :1] + share[:, None] * rise[:, None]
-    nodes = np.empty((len(planes), cells + 1, cells + 1, 3))
-    nodes[..., :2] = (1 - share)[:, None, None] * inside[:, None, None]
-    nodes[..., :2] += share[:, None, None] * outside[:, None]
-    nodes[..., 2] = share - 0.5
+    # In plan as x + iy, as seen from each plane: nodes that do not lean are real there.
+    low, high = (domain.outside(planes[ends]) * np.exp(1j * (planes[ends] - planes[:, None]))).T
+    outside = low[:, None] + share * (high - low)[:, None]
+    plan = (1 - share)[:, None] * domain.hole(planes)[:, None, None] + (
+        share[:, None] * outside[:, None]
+    )
+    plan = plan * (np.cos(planes) + 1j * np.sin(planes))[:, None, None]
+    nodes = np.stack([plan.real, plan.imag, np.broadcast_to(share - 0.5, plan.shape)], axis=-1)
     return Lattice(domain, planes, edge_planes, flats, strips, ends, nodes)
 
 
