@@ -83,8 +83,8 @@ class Flats(NamedTuple):
 def flats_of(slopes: Floats, ring_ratio: float) -> Flats:
     """The flats of edges.
 
-    Each is as wide as holds a square of one side, around its middle, at every height.  Where all is
-    level their ends are exactly half a side from the ring's centre line.
+    Each is as wide as its tube needs at the height where it is narrowest.  Where all is level, its
+    ends are exactly half a side from the ring's centre line.
 
     Parameters
     ----------
@@ -96,11 +96,18 @@ def flats_of(slopes: Floats, ring_ratio: float) -> Flats:
     round_ = ring_ratio + 0.5
     level = math.sqrt(round_**2 - 0.25)
     distance = ring_ratio + (level - ring_ratio) / np.cos(slopes)
-    ledge = np.minimum((1 / np.cos(slopes) - 1) / 2, _LEDGE)
+    above, ledge = _ledges(slopes)
     # It narrows upwards or downwards, as the faces of a pyramid do.
-    half_width = (0.5 + ledge) / (1 - np.abs(np.sin(slopes)) / (2 * distance))
+    lowest = (0.5 + above - ledge) * np.abs(np.sin(slopes))
+    half_width = (0.5 + ledge) / (1 - lowest / distance)
     farther = np.hypot(distance, half_width) - math.hypot(level, 0.5)
     return Flats(np.where(slopes == 0, round_, round_ + farther), half_width)
+
+
+def _ledges(slopes: Floats) -> tuple[Floats, Floats]:
+    """What flats leave above and below tubes in their middles, and what they leave at least."""
+    middle = (1 / np.cos(slopes) - 1) / 2
+    return middle, np.minimum(middle, _LEDGE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,16 +138,20 @@ class Domain:
         return flats_of(self.spokes.slopes, self.ring_ratio)
 
     def tube_face(self, edge: int) -> Face:
-        """Where an edge's tube starts: the middle of its square, and which way the edge goes."""
+        """Where an edge's tube starts: the middle of its square, and which way the edge goes.
+
+        It is as near to the ring's centre line as the flat has room for: so it goes on into the
+        ring the farthest.
+        """
         azimuth, slope = float(self.spokes.azimuths[edge]), float(self.spokes.slopes[edge])
         out = np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
         along = np.array([-math.sin(azimuth), math.cos(azimuth), 0.0])
         axis = np.array([0.0, 0.0, 1.0])
         c, s = math.cos(slope), math.sin(slope)
-        return Face(
-            float(self.flats.distance[edge]) * out,
-            np.stack([c * out - s * axis, along, s * out + c * axis]),
-        )
+        axes = np.stack([c * out - s * axis, along, s * out + c * axis])
+        middle, least = (float(ledge) for ledge in _ledges(np.array(slope)))
+        down = math.copysign(middle - least, slope)
+        return Face(float(self.flats.distance[edge]) * out - down * axes[2], axes)
 
     def pad(self, edge: int) -> tuple[float, float]:
         """Distance of the hole's flat opposite an edge from the axis, and half its width."""

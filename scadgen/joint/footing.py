@@ -11,7 +11,7 @@ import shapely
 from scadgen.errors import GeometryError, InvariantError
 from scadgen.joint.surface import Surface
 from scadgen.joint.walls import Facet
-from scadgen.solid.affine import Ints
+from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["LEDGE", "SPLIT", "TUBE", "with_footing"]
 
@@ -21,7 +21,7 @@ SPLIT: Facet = ("split", 0)
 LEDGE: Facet = ("ledge", 0)
 
 
-def with_footing(half: Surface, slope: float, distance: float, sign: float) -> Surface:
+def with_footing(half: Surface, slope: float, middle: Floats, sign: float) -> Surface:
     """A half whose flat is divided into its part of the tube's square, and a ledge.
 
     Parameters
@@ -30,8 +30,8 @@ def with_footing(half: Surface, slope: float, distance: float, sign: float) -> S
         Half of a connector, whose flat is one facet.
     slope
         Of its edge, in radians.
-    distance
-        Of the square's middle from the ring's axis, in sides.
+    middle
+        ``(3,) float``: the square's, in sides.
     sign
         1 for half A, -1 for half B.
 
@@ -42,14 +42,13 @@ def with_footing(half: Surface, slope: float, distance: float, sign: float) -> S
     """
     up = np.array([math.sin(slope), 0.0, math.cos(slope)]) / 2
     aside = np.array([0.0, sign / 2, 0.0])
-    square = np.array([up, up + aside, aside - up, -up])
-    square[:, 0] += distance
+    square = np.array([middle + way for way in (up, up + aside, aside - up, -up)])
     flat, split = half.outlines[TUBE].tolist(), half.outlines[SPLIT].tolist()
-    height, low = half.points[:, 2], float(np.abs(up[2]))
+    height, (low, high) = half.points[:, 2], (middle[2] - up[2], middle[2] + up[2])
     sides = [side for side in flat if side[::-1] in split]
-    beside = [s for s in sides if min(height[s]) < -low and max(height[s]) > low]
+    beside = [s for s in sides if min(height[s]) < low and max(height[s]) > high]
     around = [side for side in flat if side not in beside]
-    inside = shapely.box(*np.sort([(0.0, -low), (sign / 2, low)], axis=0).ravel())
+    inside = shapely.box(*np.sort([(0.0, low), (sign / 2, high)], axis=0).ravel())
     crossing = shapely.linestrings(half.points[np.array(around)][..., 1:])
     if len(beside) != 1 or shapely.intersects(crossing, inside).any():
         msg = (

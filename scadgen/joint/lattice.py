@@ -231,7 +231,7 @@ def without_corners(lattice: Lattice, dropped: NDArray[np.bool_]) -> Lattice:
         lattice.edge_planes,
         lattice.flats,
         corner & kept,
-        lattice.nodes.shape[1] - 1,
+        lattice.nodes.shape[2] - 1,
     )
 
 
@@ -252,15 +252,18 @@ def _with_corners(
     domain = Domain(spokes, ring_ratio, planes[corner[0]], planes[ends[corner[1]]])
     strips = np.cumsum(corner, axis=1, dtype=np.int64)
     strips[strips == strips[:, -1:]] = 0
-    share = np.linspace(0, 1, cells + 1)
+    height = np.linspace(0, 1, cells + 1)
     # In plan as x + iy, as seen from each plane: nodes that do not lean are real there.
     low, high = (domain.outside(planes[ends]) * np.exp(1j * (planes[ends] - planes[:, None]))).T
-    outside = low[:, None] + share * (high - low)[:, None]
+    outside = low[:, None] + height * (high - low)[:, None]
+    # Across the ring cells are no longer than across its height.
+    across = np.abs(outside).max() - ring_ratio + 0.5
+    share = np.linspace(0, 1, round(cells * float(across)) + 1)
     plan = (1 - share)[:, None] * domain.hole(planes)[:, None, None] + (
         share[:, None] * outside[:, None]
     )
     plan = plan * (np.cos(planes) + 1j * np.sin(planes))[:, None, None]
-    nodes = np.stack([plan.real, plan.imag, np.broadcast_to(share - 0.5, plan.shape)], axis=-1)
+    nodes = np.stack([plan.real, plan.imag, np.broadcast_to(height - 0.5, plan.shape)], axis=-1)
     return Lattice(domain, planes, edge_planes, flats, strips, ends, nodes)
 
 

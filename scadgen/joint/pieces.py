@@ -8,6 +8,7 @@ edge, which gives the two halves.
 from __future__ import annotations
 
 import itertools
+import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 
@@ -73,13 +74,14 @@ def halves(
     )
     number = {name: n for n, name in enumerate(names)}
     points = [lattice.nodes[k[2:]] if k[0] == "node" else position[k] for k, _ in names]
-    spokes, distance = lattice.domain.spokes, float(lattice.domain.flats.distance[edge])
+    spokes = lattice.domain.spokes
     parts = _parted(polygons, sides, number, np.array(points), float(spokes.azimuths[edge]))
     if spokes.level(edge):
         return parts
-    slope = float(spokes.slopes[edge])
+    slope, (x, y, z) = float(spokes.slopes[edge]), lattice.domain.tube_face(edge).position
+    middle = np.array([math.hypot(x, y), 0.0, z])
     first, second = (
-        with_footing(part, slope, distance, sign)
+        with_footing(part, slope, middle, sign)
         for part, sign in zip(parts, (1.0, -1.0), strict=True)
     )
     return first, second
