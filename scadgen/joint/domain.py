@@ -8,8 +8,9 @@ a flat, on which the edge's tube stands square to the edge: with the slope b the
 where r is the distance from the axis along the edge's azimuth, and t what makes a flat of slope 0
 exactly one side wide.  Between two flats of one slope all faces are those of one pyramid, whose
 apex is on the axis, or of a prism where the slope is 0; so the lines in which they meet lie in
-planes through the axis.  Between flats whose slopes differ the slope goes evenly with the angle;
-there outlines above and below are joined by triangles, for no other faces would be plane.
+planes through the axis.  Between flats whose slopes differ the slope goes evenly with the angle, to
+their mean where the wall is; outlines above and below are joined by triangles there, for no other
+faces would be plane.
 
 Lengths are in units of the side, angles in radians.
 """
@@ -125,12 +126,16 @@ class Domain:
     outer
         ``(m, 2) float``: azimuths of the lower and the upper ends of the lines in which outer faces
         meet, ascending.  Any two that follow each other are in one plane.
+    bends
+        ``(b, 2) float``: azimuths between flats of different slopes at which the outside has a
+        given slope; from one to the next, and from flats to these, it goes evenly with the angle.
     """
 
     spokes: Spokes
     ring_ratio: float
     inner: Floats
     outer: Floats
+    bends: Floats
 
     @cached_property
     def flats(self) -> Flats:
@@ -189,8 +194,8 @@ class Domain:
     def _slope(self, azimuths: Floats) -> Floats:
         """Slope of the outside in some directions."""
         edges, half = self.spokes.azimuths, self.flats.half_angle
-        at = np.column_stack([edges - half, edges + half]).ravel()
-        slopes = np.repeat(self.spokes.slopes, 2)
+        at = np.concatenate([edges - half, edges + half, self.bends[:, 0]])
+        slopes = np.concatenate([np.tile(self.spokes.slopes, 2), self.bends[:, 1]])
         return np.asarray(np.interp(azimuths, at, slopes, period=2 * np.pi))
 
     def volume(self) -> float:

@@ -20,7 +20,7 @@ from scadgen.joint.symmetry import lopsided
 from scadgen.joint.territory import belongs, share
 from scadgen.joint.tidy import corners_in_the_way, merge_short_sides
 from scadgen.joint.walls import Feature, wedges
-from scadgen.joint.weave import Weave
+from scadgen.joint.weave import SLOPED_ROOM, Weave
 from scadgen.solid.affine import Floats
 
 __all__ = [
@@ -107,7 +107,8 @@ def wall_angles(spokes: Spokes, weave: Weave, keys: Collection[int]) -> Floats:
     gaps = spokes.gaps
     if weave.stretch is None:
         return gaps / 2
-    near = np.minimum(weave.stretch / (2 * weave.ring_ratio), gaps / 2)
+    room = SLOPED_ROOM if spokes.slopes.any() else 1.0
+    near = np.minimum(room * weave.stretch / (2 * weave.ring_ratio), gaps / 2)
     here = np.isin(np.arange(len(gaps)), list(keys))
     after = np.roll(here, -1)
     first = here | lopsided(gaps, keys)

@@ -5,9 +5,9 @@ outline to the outer one, and the height.  The domain's faces, and the vertical 
 edges, are unions of its faces.
 
 Where the outside is upright, or slopes alike, nodes of one index are in a plane through the axis.
-Between flats of different slopes they lean: the outline above goes on by two cells while that
-below stays, and then the other way around, so that outer faces are triangles.  Turned over that
-is itself.  Lengths are in units of the side.
+Between flats of different slopes they lean, on either side of the wall's middle: the outline above
+goes on while that below stays, and then the other way around, so that outer faces are triangles.
+Turned over that is itself.  Lengths are in units of the side.
 """
 
 from __future__ import annotations
@@ -36,6 +36,9 @@ _LONG = 2
 #: A plane closer to the next than this, in cells, is left out.
 _SLIVER = 0.5
 
+#: Cells that the outside needs to lean on either side of one that does not.
+_LEANING = 5
+
 #: Slopes of two flats that are as near as this are the same, in radians.
 _SAME = 1e-9
 
@@ -54,12 +57,14 @@ class Lattice:
         For each edge, the index of the plane through it.
     flats
         ``(edges, 2) int``: indices at which each edge's outer flat begins and ends.
+    middles
+        ``(edges,) int``: the cell in the middle of what is woven in the gap after each edge.
     strips
         ``(2, planes) int``: for each angular cell, the number of the domain's face that it
         lies on inside and outside.  Numbers ascend with the angle, but for the last half flat,
         which belongs to the first edge.
     ends
-        ``(planes, 2) int``: index of the angle at which the nodes outside are, below and above.
+        ``(planes, 2) float``: angles at which the nodes outside are, below and above.
     nodes
         ``(planes, radii, heights, 3) float``.
     """
@@ -68,8 +73,9 @@ class Lattice:
     planes: Floats
     edge_planes: Ints
     flats: Ints
+    middles: Ints
     strips: Ints
-    ends: Ints
+    ends: Floats
     nodes: Floats
 
     @cached_property
@@ -119,8 +125,7 @@ def make_lattice(
         Radius of the ring's centre line.
     cells
         Cells across the side; odd, and so is their number across each gap, so that no
-        lattice edge lies on the half-turn axis of a regular joint's walls.  It is even where the
-        outside leans.
+        lattice edge lies on the half-turn axis of a regular joint's walls.
     extra
         Cells to add in each gap; even.
     woven
@@ -139,20 +144,23 @@ def make_lattice(
     leans = _leaning(spokes).tolist()
     angles: list[Floats] = []
     planes: list[int] = []
+    middles: list[int] = []
     for edge, (azimuth, gap) in enumerate(zip(spokes.azimuths, gaps, strict=True)):
-        (rise, near), (fall, last) = rises[edge], rises[(edge + 1) % len(rises)]
+        (rise, _), (fall, _) = rises[edge], rises[(edge + 1) % len(rises)]
         planes.append(sum(map(len, angles)))
         low, high = rise[-1], gap - fall[-1]
         between = (low, high) if woven is None else woven[edge]
-        around = len(rise) - near + len(fall) - last if leans[edge] else None
-        span = _between(low, high, between, ring_ratio, cells, extra, around)
+        least = _LEANING if leans[edge] else 0
+        span, middle = _between(low, high, between, ring_ratio, cells, extra, least)
+        middles.append(planes[-1] + len(rise) - 1 + middle)
         angles.append(azimuth + np.concatenate([rise, span, (gap - fall)[:0:-1]]))
     theta, edge_planes = np.concatenate(angles), np.array(planes)
     flats = (edge_planes[:, None] + np.array([(-near, near) for _, near in rises])) % len(theta)
     off = np.abs((theta[:, None] - spokes.azimuths + np.pi) % (2 * np.pi) - np.pi)
     pads = np.array([rise[-1] for rise, _ in rises])
     corner = np.stack([(off > flat - 1e-9).all(axis=1) for flat in (pads, half)])
-    return _with_corners(spokes, ring_ratio, theta, edge_planes, flats, corner, cells)
+    at = np.array(middles)
+    return _with_corners(spokes, ring_ratio, theta, edge_planes, flats, at, corner, cells)
 
 
 def _leaning(spokes: Spokes) -> NDArray[np.bool_]:
@@ -177,26 +185,23 @@ def _between(
     ring_ratio: float,
     cells: int,
     extra: int,
-    around: int | None,
-) -> Floats:
-    """Angles of the planes between two flats, these not included.
+    least: int,
+) -> tuple[Floats, int]:
+    """Angles of the planes between two flats, these not included, and which cell is in the middle.
 
-    Where the outside leans, they make an even number of cells together with those around them.
+    There are at least so many cells where walls are, an odd number.
     """
     start, end = max(low, woven[0]), min(high, woven[1])
-    fine = math.ceil((end - start) * ring_ratio * cells) // 2 * 2 + 1 + extra
+    fine = max(least, math.ceil((end - start) * ring_ratio * cells) // 2 * 2 + 1 + extra)
     long = ring_ratio * min(cells, _LONG)
     before, after = (math.ceil(way * long - _SLIVER) for way in (start - low, high - end))
-    if around is not None and (before + fine + after + around) % 2:
-        fine += 1
     stations = [low, start, end, high][before == 0 : 4 - (after == 0)]
     counts = [count for count in (before, fine, after) if count]
-    return np.concatenate(
-        [
-            np.linspace(a, b, count + 1)[1:]
-            for (a, b), count in zip(itertools.pairwise(stations), counts, strict=True)
-        ]
-    )[:-1]
+    angles = [
+        np.linspace(a, b, count + 1)[1:]
+        for (a, b), count in zip(itertools.pairwise(stations), counts, strict=True)
+    ]
+    return np.concatenate(angles)[:-1], before + fine // 2
 
 
 def _pad_half_angle(ring_ratio: float, flat: float, gap: float, cells: int) -> float:
@@ -230,6 +235,7 @@ def without_corners(lattice: Lattice, dropped: NDArray[np.bool_]) -> Lattice:
         lattice.planes,
         lattice.edge_planes,
         lattice.flats,
+        lattice.middles,
         corner & kept,
         lattice.nodes.shape[2] - 1,
     )
@@ -241,20 +247,30 @@ def _with_corners(
     planes: Floats,
     edge_planes: Ints,
     flats: Ints,
+    middles: Ints,
     corner: NDArray[np.bool_],
     cells: int,
 ) -> Lattice:
     """Let the outside lean where it must, number the strips between corners, place the nodes."""
-    ends = np.repeat(np.arange(len(planes))[:, None], 2, axis=1)
+    ends, bends = np.repeat(planes[:, None], 2, axis=1), []
     for edge in np.flatnonzero(_leaning(spokes)).tolist():
-        between = slice(flats[edge, 1], flats[(edge + 1) % len(flats), 0] + 1)
-        _lean(ends[between], corner[1, between])
-    domain = Domain(spokes, ring_ratio, planes[corner[0]], planes[ends[corner[1]]])
+        after, start = (edge + 1) % len(flats), flats[edge, 1]
+        between, middle = slice(start, flats[after, 0] + 1), int(middles[edge] - start)
+        mean = float(spokes.slopes[edge] + spokes.slopes[after]) / 2
+        level = _lean(ends[between], corner[1, between], middle)
+        bends += [(planes[start + n], mean) for n in level]
+    domain = Domain(
+        spokes,
+        ring_ratio,
+        planes[corner[0]],
+        ends[corner[1]],
+        np.array(bends).reshape(-1, 2),
+    )
     strips = np.cumsum(corner, axis=1, dtype=np.int64)
     strips[strips == strips[:, -1:]] = 0
     height = np.linspace(0, 1, cells + 1)
     # In plan as x + iy, as seen from each plane: nodes that do not lean are real there.
-    low, high = (domain.outside(planes[ends]) * np.exp(1j * (planes[ends] - planes[:, None]))).T
+    low, high = (domain.outside(ends) * np.exp(1j * (ends - planes[:, None]))).T
     outside = low[:, None] + height * (high - low)[:, None]
     # Across the ring cells are no longer than across its height.
     across = np.abs(outside).max() - ring_ratio + 0.5
@@ -264,28 +280,47 @@ def _with_corners(
     )
     plan = plan * (np.cos(planes) + 1j * np.sin(planes))[:, None, None]
     nodes = np.stack([plan.real, plan.imag, np.broadcast_to(height - 0.5, plan.shape)], axis=-1)
-    return Lattice(domain, planes, edge_planes, flats, strips, ends, nodes)
+    return Lattice(domain, planes, edge_planes, flats, middles, strips, ends, nodes)
 
 
-def _lean(ends: Ints, corner: NDArray[np.bool_]) -> None:
+def _lean(ends: Floats, corner: NDArray[np.bool_], middle: int) -> tuple[int, int]:
     """Let the outside lean between two flats.
-
-    From each corner that is left to the next, which are an even number of cells apart, the outline
-    above goes first.
 
     Parameters
     ----------
     ends
-        ``(n, 2) int``: as of a `Lattice`, from the end of a flat to the start of the next; changed.
+        ``(n, 2) float``: as of a `Lattice`, from the end of a flat to the start of the next, none
+        of which lean; changed.
     corner
-        ``(n,) bool``: which corners are left; changed to where faces meet.
+        ``(n,) bool``: which corners may be left; changed to where faces meet.
+    middle
+        The cell in the middle.
+
+    Returns
+    -------
+    level
+        The upright corners on either side of the middle; between them there is one face.
     """
-    kept = np.flatnonzero(corner[::2]) * 2
+    last = len(ends) - 1
+    before = _upright(corner, middle)
+    after = [last - n for n in _upright(corner[::-1], last - middle - 1)][::-1]
     corner[:] = False
-    corner[kept] = True
-    first = int(ends[0, 0])
-    for start, stop in itertools.pairwise(kept.tolist()):
-        way = np.arange(stop - start + 1)
-        ends[start : stop + 1, 1] = first + np.minimum(start + 2 * way, stop)
-        ends[start : stop + 1, 0] = first + np.maximum(stop - 2 * way[::-1], start)
-        corner[(start + stop) // 2] = True
+    corner[[*before, *after]] = True
+    for upright, late in ((before, 1), (after, 0)):
+        for start, stop in itertools.pairwise(upright):
+            first, final = float(ends[start, 0]), float(ends[stop, 0])
+            turn = start + (stop - start + late) // 2
+            ends[start : turn + 1, 1] = np.linspace(first, final, turn - start + 1)
+            ends[turn:stop, 1], ends[start:turn, 0] = final, first
+            ends[turn : stop + 1, 0] = np.linspace(first, final, stop - turn + 1)
+            corner[turn] = True
+    return before[-1], after[0]
+
+
+def _upright(corner: NDArray[np.bool_], middle: int) -> list[int]:
+    """Which corners are upright from the end of a flat on to the middle: two cells apart or more.
+
+    The last one is as near to the middle as may be left.
+    """
+    found = [n for n in (*range(0, middle - 1, 2), middle) if n == 0 or corner[n]]
+    return found if len(found) > 1 else [0, middle]
