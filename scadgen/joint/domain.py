@@ -30,11 +30,14 @@ from scadgen.errors import GeometryError
 from scadgen.joint.spokes import Spokes
 from scadgen.solid.affine import Floats
 
-__all__ = ["Domain", "Face", "Flats", "check_room", "flats_of"]
+__all__ = ["OUTSIDE", "Domain", "Face", "Flats", "check_room", "flats_of"]
 
 #: What a sloped flat leaves beside its tube at least, in sides; less where the slope is so small
 #: that it leaves less above and below.
 _LEDGE = 0.02
+
+#: What is so far outside a domain is no rounding, in sides.
+OUTSIDE = 1e-9
 
 #: Two tubes keep apart at any ring ratio that is more than this over their gap.
 _WIDE = 4.0
@@ -191,6 +194,35 @@ class Domain:
             ends.append(_reach(azimuths[:, side], corners, radius[first, side]))
         return np.stack(ends, axis=1)
 
+    @cached_property
+    def _lines(self) -> NDArray[np.complex128]:
+        """The lower and the upper ends of the outer lines in plan as x + iy, ``(2, m)``."""
+        return np.asarray((self.outside(self.outer) * np.exp(1j * self.outer)).T)
+
+    @property
+    def leans(self) -> bool:
+        """Whether some of its outer faces meet at an edge that goes inwards."""
+        return bool(len(self.bends))
+
+    def beyond(self, points: Floats) -> Floats:
+        """How far points ``(n, 3)`` are outside the outer faces at their height, in sides.
+
+        Less than 0 inside; measured away from the axis.
+        """
+        lower, upper = self._lines
+        corners = lower + (points[:, 2, None] + 0.5) * (upper - lower)
+        plan = (points[:, 0] + 1j * points[:, 1])[:, None]
+        # The side that is met in a point's direction begins behind it and ends ahead of it.
+        ahead = (plan.conj() * corners).imag
+        near = (plan.conj() * corners).real > 0
+        side = ((ahead <= 0) & (np.roll(ahead, -1, axis=1) > 0) & near).argmax(axis=1)
+        row = np.arange(len(points))
+        start = corners[row, side]
+        way = corners[row, (side + 1) % corners.shape[1]] - start
+        plan = plan[:, 0]
+        share = (way.conj() * start).imag / (way.conj() * plan).imag
+        return np.asarray(np.abs(plan) * (1 - share))
+
     def _slope(self, azimuths: Floats) -> Floats:
         """Slope of the outside in some directions."""
         edges, half = self.spokes.azimuths, self.flats.half_angle
@@ -200,7 +232,7 @@ class Domain:
 
     def volume(self) -> float:
         """Volume, from the lines in which its faces meet alone, in cubic sides."""
-        lower, upper = (self.outside(self.outer) * np.exp(1j * self.outer)).T
+        lower, upper = self._lines
         hole = self.hole(self.inner) * np.exp(1j * self.inner)
         # Outlines at a height have corners that go evenly with it: their area is a quadratic.
         around = _area(lower) + 4 * _area((lower + upper) / 2) + _area(upper)

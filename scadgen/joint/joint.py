@@ -203,8 +203,8 @@ def make_joint(
     corners = sorted({corner for wedge in walls for corner in wedge.corners})
     places = place(lattice, curves, far, corners)
     position: dict[Feature, Floats] = dict(zip(corners, places, strict=True))
-    walls = merge_short_sides(walls, position, 1 / detail.cells)
-    walls = fanned(walls, position, curves)
+    walls = merge_short_sides(walls, position, 1 / detail.cells, lattice.domain)
+    walls = fanned(walls, position, curves, lattice.domain)
     pairs = {edge: halves(lattice, labels, walls, position, edge) for edge in computed}
     for edge, (first, _) in pairs.items():
         if symmetry.either(edge):

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scadgen.joint.curve import SiteCurve, nearest_curve
+from scadgen.joint.domain import OUTSIDE, Domain
 from scadgen.joint.lattice import Lattice
 from scadgen.joint.walls import Facet, Feature, Wedge
 from scadgen.solid.affine import Floats, Ints
@@ -72,7 +73,7 @@ def _labels_beside(lines: Floats, curves: Sequence[SiteCurve], room: float) -> I
 
 
 def merge_short_sides(
-    walls: Sequence[Wedge], position: dict[Feature, Floats], cell: float
+    walls: Sequence[Wedge], position: dict[Feature, Floats], cell: float, domain: Domain
 ) -> list[Wedge]:
     """Merge vertices that stand too close together, shortest sides first.
 
@@ -84,6 +85,8 @@ def merge_short_sides(
         Where their vertices are; those that stay may be moved here.
     cell
         Length of a cell's side.
+    domain
+        What the walls divide, and may not leave.
 
     Returns
     -------
@@ -101,7 +104,9 @@ def merge_short_sides(
         if len(ends) < 2:
             continue
         gone, kept = sorted(ends, key=lambda key: (_RANK[key[0]], key))
-        if _may_merge(merged, around, gone, kept):
+        if _may_merge(merged, around, gone, kept) and not (
+            domain.leans and _leaves(merged, around, position, domain, (gone, kept))
+        ):
             into[gone] = kept
             if _RANK[gone[0]] == _RANK[kept[0]]:
                 position[kept] = (position[gone] + position[kept]) / 2
@@ -181,6 +186,23 @@ def _may_merge(
         if touching > (number in shared or number in beyond):
             return False
     return kept in near[0] and near[0] & near[1] <= {v for w in shrinking for v in w.corners}
+
+
+def _leaves(
+    walls: Sequence[Wedge],
+    around: dict[Feature, set[int]],
+    position: dict[Feature, Floats],
+    domain: Domain,
+    ends: tuple[Feature, Feature],
+) -> bool:
+    """Whether a wall leaves the domain if one vertex goes into another that is on a facet."""
+    gone, kept = ends
+    near = {v for n in around[gone] for v in _beside(walls[n].corners, gone)} - {kept}
+    on_facets = sorted(v for v in near if v[0] != "cell")
+    if kept[0] == "cell" or not on_facets:
+        return False
+    middles = np.array([(position[v] + position[kept]) / 2 for v in on_facets])
+    return bool((domain.beyond(middles) > OUTSIDE).any())
 
 
 def _facets(walls: Sequence[Wedge], around: dict[Feature, set[int]], key: Feature) -> set[Facet]:
