@@ -275,9 +275,15 @@ def _with_corners(
     # Across the ring cells are no longer than across its height.
     across = np.abs(outside).max() - ring_ratio + 0.5
     share = np.linspace(0, 1, round(cells * float(across)) + 1)
-    plan = (1 - share)[:, None] * domain.hole(planes)[:, None, None] + (
-        share[:, None] * outside[:, None]
-    )
+    upright = outside
+    if domain.leans:
+        # Only the nodes on the outside lean: cells within stay as good as they can be.
+        around = np.exp(1j * planes)[:, None] + 0 * height
+        points = np.stack([around.real, around.imag, around.real * 0 + height - 0.5], axis=-1)
+        upright = 1 - domain.beyond(points.reshape(-1, 3)).reshape(outside.shape) + 0j
+    plan = (1 - share)[:, None] * domain.hole(planes)[:, None, None]
+    plan = plan + share[:, None] * upright[:, None]
+    plan[:, -1] = outside
     plan = plan * (np.cos(planes) + 1j * np.sin(planes))[:, None, None]
     nodes = np.stack([plan.real, plan.imag, np.broadcast_to(height - 0.5, plan.shape)], axis=-1)
     return Lattice(domain, planes, edge_planes, flats, middles, strips, ends, nodes)
