@@ -272,8 +272,8 @@ def _with_corners(
     # In plan as x + iy, as seen from each plane: nodes that do not lean are real there.
     low, high = (domain.outside(ends) * np.exp(1j * (ends - planes[:, None]))).T
     outside = low[:, None] + height * (high - low)[:, None]
-    # Across the ring cells are no longer than across its height.
-    across = np.abs(outside).max() - ring_ratio + 0.5
+    # Halfway up, cells across the ring are no longer than across its height.
+    across = np.abs(low + high).max() / 2 - ring_ratio + 0.5
     share = np.linspace(0, 1, round(cells * float(across)) + 1)
     upright = outside
     if domain.leans:
