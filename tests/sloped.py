@@ -66,7 +66,7 @@ def tube(made, edge, clearance, length=1.5):
     )
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     triangles = [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
-    return face.position + corners @ face.axes, np.array(triangles)
+    return face.apply(corners), np.array(triangles)
 
 
 def touches(made, key, which, *, twin):

@@ -29,8 +29,9 @@ from scipy.optimize import brentq
 from scadgen.errors import GeometryError
 from scadgen.joint.spokes import Spokes
 from scadgen.solid.affine import Floats
+from scadgen.solid.pose import Pose
 
-__all__ = ["OUTSIDE", "Domain", "Face", "Flats", "check_room", "flats_of"]
+__all__ = ["OUTSIDE", "Domain", "Flats", "check_room", "flats_of"]
 
 #: What a sloped flat leaves beside its tube at least, in sides; less where the slope is so small
 #: that it leaves less above and below.
@@ -41,22 +42,6 @@ OUTSIDE = 1e-9
 
 #: Two tubes keep apart at any ring ratio that is more than this over their gap.
 _WIDE = 4.0
-
-
-class Face(NamedTuple):
-    """Where a square stands in space.
-
-    Parameters
-    ----------
-    position
-        ``(3,) float``: its middle.
-    axes
-        ``(3, 3) float``: rows are the way out, the way counter-clockwise around the ring, and the
-        way up.
-    """
-
-    position: Floats
-    axes: Floats
 
 
 class Flats(NamedTuple):
@@ -145,8 +130,10 @@ class Domain:
         """The flats of its edges."""
         return flats_of(self.spokes.slopes, self.ring_ratio)
 
-    def tube_face(self, edge: int) -> Face:
-        """Where an edge's tube starts: the middle of its square, and which way the edge goes.
+    def tube_face(self, edge: int) -> Pose:
+        """Where an edge's tube starts: the middle of its square, its x axis the way out.
+
+        Its y axis goes counter-clockwise around the ring.
 
         It is as near to the ring's centre line as the flat has room for: so it goes on into the
         ring the farthest.
@@ -159,7 +146,7 @@ class Domain:
         axes = np.stack([c * out - s * axis, along, s * out + c * axis])
         middle, least = (float(ledge) for ledge in _ledges(np.array(slope)))
         down = math.copysign(middle - least, slope)
-        return Face(float(self.flats.distance[edge]) * out - down * axes[2], axes)
+        return Pose.of(float(self.flats.distance[edge]) * out - down * axes[2], axes)
 
     def pad(self, edge: int) -> tuple[float, float]:
         """Distance of the hole's flat opposite an edge from the axis, and half its width."""

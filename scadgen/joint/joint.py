@@ -233,7 +233,7 @@ def check_footprint(lattice: Lattice, curves: Sequence[SiteCurve], edge: int) ->
         It does not: says what share of it does.
     """
     face = lattice.domain.tube_face(edge)
-    middle, corner = face.axes @ face.position, np.array([0.0, 0.5, 0.5])
+    middle, corner = face.axes @ face.at, np.array([0.0, 0.5, 0.5])
     if belongs(curves, edge, middle - corner, middle + corner, margin=0.0, axes=face.axes):
         return
     grid = np.stack(np.meshgrid([0.0], *[np.linspace(-0.5, 0.5, 41)] * 2), axis=-1).reshape(-1, 3)

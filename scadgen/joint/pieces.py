@@ -78,7 +78,7 @@ def halves(
     parts = _parted(polygons, sides, number, np.array(points), float(spokes.azimuths[edge]))
     if spokes.level(edge):
         return parts
-    slope, (x, y, z) = float(spokes.slopes[edge]), lattice.domain.tube_face(edge).position
+    slope, (x, y, z) = float(spokes.slopes[edge]), lattice.domain.tube_face(edge).at
     middle = np.array([math.hypot(x, y), 0.0, z])
     first, second = (
         with_footing(part, slope, middle, sign)
