@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scadgen.joint.domain import Domain, check_room, flats_of
+from scadgen.joint.lean import LEANING, lean
 from scadgen.joint.spokes import Spokes
 from scadgen.solid.affine import Floats, Ints
 
@@ -35,9 +36,6 @@ _LONG = 2
 
 #: A plane closer to the next than this, in cells, is left out.
 _SLIVER = 0.5
-
-#: Cells that the outside needs to lean on either side of one that does not.
-_LEANING = 5
 
 #: Slopes of two flats that are as near as this are the same, in radians.
 _SAME = 1e-9
@@ -150,7 +148,7 @@ def make_lattice(
         planes.append(sum(map(len, angles)))
         low, high = rise[-1], gap - fall[-1]
         between = (low, high) if woven is None else woven[edge]
-        least = _LEANING if leans[edge] else 0
+        least = LEANING if leans[edge] else 0
         span, middle = _between(low, high, between, ring_ratio, cells, extra, least)
         middles.append(planes[-1] + len(rise) - 1 + middle)
         angles.append(azimuth + np.concatenate([rise, span, (gap - fall)[:0:-1]]))
@@ -257,7 +255,7 @@ def _with_corners(
         after, start = (edge + 1) % len(flats), flats[edge, 1]
         between, middle = slice(start, flats[after, 0] + 1), int(middles[edge] - start)
         mean = float(spokes.slopes[edge] + spokes.slopes[after]) / 2
-        level = _lean(ends[between], corner[1, between], middle)
+        level = lean(ends[between], corner[1, between], middle)
         bends += [(planes[start + n], mean) for n in level]
     domain = Domain(
         spokes,
@@ -287,46 +285,3 @@ def _with_corners(
     plan = plan * (np.cos(planes) + 1j * np.sin(planes))[:, None, None]
     nodes = np.stack([plan.real, plan.imag, np.broadcast_to(height - 0.5, plan.shape)], axis=-1)
     return Lattice(domain, planes, edge_planes, flats, middles, strips, ends, nodes)
-
-
-def _lean(ends: Floats, corner: NDArray[np.bool_], middle: int) -> tuple[int, int]:
-    """Let the outside lean between two flats.
-
-    Parameters
-    ----------
-    ends
-        ``(n, 2) float``: as of a `Lattice`, from the end of a flat to the start of the next, none
-        of which lean; changed.
-    corner
-        ``(n,) bool``: which corners may be left; changed to where faces meet.
-    middle
-        The cell in the middle.
-
-    Returns
-    -------
-    level
-        The upright corners on either side of the middle; between them there is one face.
-    """
-    last = len(ends) - 1
-    before = _upright(corner, middle)
-    after = [last - n for n in _upright(corner[::-1], last - middle - 1)][::-1]
-    corner[:] = False
-    corner[[*before, *after]] = True
-    for upright, late in ((before, 1), (after, 0)):
-        for start, stop in itertools.pairwise(upright):
-            first, final = float(ends[start, 0]), float(ends[stop, 0])
-            turn = start + (stop - start + late) // 2
-            ends[start : turn + 1, 1] = np.linspace(first, final, turn - start + 1)
-            ends[turn:stop, 1], ends[start:turn, 0] = final, first
-            ends[turn : stop + 1, 0] = np.linspace(first, final, stop - turn + 1)
-            corner[turn] = True
-    return before[-1], after[0]
-
-
-def _upright(corner: NDArray[np.bool_], middle: int) -> list[int]:
-    """Which corners are upright from the end of a flat on to the middle: two cells apart or more.
-
-    The last one is as near to the middle as may be left.
-    """
-    found = [n for n in (*range(0, middle - 1, 2), middle) if n == 0 or corner[n]]
-    return found if len(found) > 1 else [0, middle]
