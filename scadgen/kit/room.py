@@ -15,6 +15,7 @@ from scadgen.frame.kinds import Kinds
 from scadgen.frame.planarity import more
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.lattice import make_lattice
+from scadgen.joint.spokes import Spokes
 from scadgen.kit.apart import Apart
 from scadgen.kit.live import CLEARANCE, peg_length
 from scadgen.kit.ranges import SIDE, TUBE
@@ -142,8 +143,9 @@ def reaches(directions: Iterable[float], ring_ratio: float) -> tuple[float, floa
     GeometryError
         Two tubes would overlap.
     """
-    lattice = make_lattice(tuple(directions), ring_ratio, DETAILS["standard"].cells)
-    return lattice.tube_start, lattice.pad
+    spokes = Spokes.flat(tuple(directions))
+    domain = make_lattice(spokes, ring_ratio, DETAILS["standard"].cells).domain
+    return float(domain.flats.distance[0]), domain.pad(0)[0]
 
 
 def room(
