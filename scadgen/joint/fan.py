@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from scadgen.joint.curve import SiteCurve, slopes
+from scadgen.joint.site import Site, slopes
 from scadgen.joint.walls import Key, Wedge
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.vectors import cross
@@ -22,7 +22,7 @@ _DECIMALS = 9
 
 
 def fanned(
-    walls: Sequence[Wedge], position: dict[Key, Floats], curves: Sequence[SiteCurve]
+    walls: Sequence[Wedge], position: dict[Key, Floats], curves: Sequence[Site]
 ) -> list[Wedge]:
     """The polygons, each starting at the corner from which it is to be cut into a fan.
 
@@ -44,7 +44,7 @@ def fanned(
     return result
 
 
-def _scores(corners: Floats, labels: Ints, curves: Sequence[SiteCurve]) -> list[Floats]:
+def _scores(corners: Floats, labels: Ints, curves: Sequence[Site]) -> list[Floats]:
     """How bad it is to cut ``(p, k, 3)`` polygons from each corner, ``(p, k)``; compared in order.
 
     Whether a triangle folds back, how far the diagonals' middles are from the wall, and how
@@ -75,9 +75,7 @@ def _folds(corners: Floats) -> Floats:
     return np.asarray((upright.min(axis=1) < _FOLD) * 1.0)
 
 
-def _distance_from_wall(
-    points: Floats, low: Ints, high: Ints, curves: Sequence[SiteCurve]
-) -> Floats:
+def _distance_from_wall(points: Floats, low: Ints, high: Ints, curves: Sequence[Site]) -> Floats:
     """Distance of points from the wall between two labels, to first order."""
     (near, toward), (far, away) = (slopes(curves, points, which) for which in (low, high))
     steep = np.linalg.norm(toward - away, axis=1)

@@ -14,6 +14,7 @@ from scadgen.joint.fan import fanned
 from scadgen.joint.lattice import Lattice, directions_and_gaps, make_lattice, without_corners
 from scadgen.joint.pieces import SPLIT, halves
 from scadgen.joint.place import beside_walls, place
+from scadgen.joint.site import Site
 from scadgen.joint.surface import Surface, half_turn, join, simplify
 from scadgen.joint.symmetry import Symmetry, lopsided
 from scadgen.joint.territory import belongs, share
@@ -250,7 +251,7 @@ def _same(steps: Floats, others: Floats) -> bool:
     return bool(np.allclose(steps, others, rtol=0, atol=_ALIKE))
 
 
-def check_footprint(lattice: Lattice, curves: Sequence[SiteCurve], edge: int) -> None:
+def check_footprint(lattice: Lattice, curves: Sequence[Site], edge: int) -> None:
     """Prove that a tube's face belongs to its connector alone.
 
     Raises
@@ -263,7 +264,7 @@ def check_footprint(lattice: Lattice, curves: Sequence[SiteCurve], edge: int) ->
         return
     grid = np.stack(np.meshgrid(low[:1], *[np.linspace(-0.5, 0.5, 41)] * 2), axis=-1).reshape(-1, 3)
     msg = (
-        f"weave {curves[edge].weave.name}: only {share(curves, edge, grid):.1%} of a tube's face "
+        f"{curves[edge].name}: only {share(curves, edge, grid):.1%} of a tube's face "
         "belongs to its own connector; a smaller span or a smaller bend helps"
     )
     raise FaceError(msg)

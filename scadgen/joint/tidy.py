@@ -14,8 +14,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from scadgen.joint.curve import SiteCurve, nearest_curve
 from scadgen.joint.lattice import Lattice
+from scadgen.joint.site import Site, nearest_site
 from scadgen.joint.walls import Facet, Key, Wedge
 from scadgen.solid.affine import Floats, Ints
 
@@ -40,7 +40,7 @@ _SHORT = 0.5
 _RANK = {"cell": 0, "face": 1, "edge": 2}
 
 
-def corners_in_the_way(lattice: Lattice, curves: Sequence[SiteCurve]) -> NDArray[np.bool_]:
+def corners_in_the_way(lattice: Lattice, curves: Sequence[Site]) -> NDArray[np.bool_]:
     """Corners of the outlines that walls would slide across when they draw back.
 
     Returns
@@ -64,7 +64,7 @@ def corners_in_the_way(lattice: Lattice, curves: Sequence[SiteCurve]) -> NDArray
 
 
 def _labels_beside(
-    lattice: Lattice, curves: Sequence[SiteCurve], radius: float, room: float, height: Floats
+    lattice: Lattice, curves: Sequence[Site], radius: float, room: float, height: Floats
 ) -> Ints:
     """Nearest curves to either side of each plane, at some heights, ``(planes, 2, heights)``."""
     angle = lattice.planes[:, None] + np.array([-room, room]) / radius
@@ -72,7 +72,7 @@ def _labels_beside(
     points[..., 0] = radius * np.cos(angle)[..., None]
     points[..., 1] = radius * np.sin(angle)[..., None]
     points[..., 2] = height
-    return nearest_curve(curves, points)
+    return nearest_site(curves, points)
 
 
 def merge_short_sides(
