@@ -5,7 +5,7 @@ SHELL := bash
 BIN := .venv/bin
 PYTEST := $(BIN)/pytest -n auto --dist worksteal
 
-.PHONY: help setup demo test lint bench bench-frames pictures clean
+.PHONY: help setup demo test lint bench bench-against bench-frames pictures clean
 
 help:  ## say what there is to make
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -32,6 +32,10 @@ lint: setup  ## check style, types and layers
 bench:  ## measure how long things take
 	@scripts/setup tests
 	$(BIN)/python benchmarks/bench.py
+
+bench-against:  ## the same joints with this tree and with AGAINST=revision, side by side
+	@scripts/setup tests
+	$(BIN)/python benchmarks/against.py $(or $(AGAINST),HEAD) --instructions
 
 bench-frames:  ## measure 10,000 different joints, all named frames, 200 random ones: hours
 	@scripts/setup tests
