@@ -15,12 +15,12 @@ from scadgen.emit.frame_picture import frame_svg
 from scadgen.emit.mesh import write_atomic
 from scadgen.emit.picture import assembly_picture, frame_picture, joint_picture, parts_picture
 from scadgen.errors import ScadgenError
-from scadgen.frame.catalogue import NamedTiling
 from scadgen.frame.sameness import sameness
-from scadgen.frame.snapping import move_vertices
 from scadgen.kit.build import Request, build
 from scadgen.plan.order import make_plan
 from scadgen.plan.picture import step_pictures
+from scadgen.plane.catalogue import NamedTiling
+from scadgen.plane.snapping import move_vertices
 from scadgen.readers.read import read
 
 __all__ = ["frames", "main", "pictures"]

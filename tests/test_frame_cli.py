@@ -14,12 +14,12 @@ from kits import drawn
 from scadgen.cli.frame_report import SIDES
 from scadgen.cli.main import cli, main
 from scadgen.emit.frame_picture import frame_svg, joint_name
-from scadgen.frame.catalogue import ALIASES, NAMES, OPTIONS, named
-from scadgen.frame.graph import make_frame
 from scadgen.frame.sameness import sameness
 from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import build
 from scadgen.kit.store import load
+from scadgen.plane.catalogue import ALIASES, NAMES, OPTIONS, named
+from scadgen.plane.drawn import make_frame
 from scadgen.readers.read import read
 
 ROOT = Path(__file__).parent.parent
@@ -153,7 +153,7 @@ def test_a_kit_stays_in_its_circle_whatever_the_length_of_its_edges(name, side, 
     assert ended.value.code == 0
     made = load(tmp_path / "kit")
     # The circle's centre is in the middle of a tile; somewhere the next one would stick out.
-    far, shortest = np.linalg.norm(made.frame.vertices, axis=1).max(), made.frame.lengths.min()
+    far, shortest = np.linalg.norm(made.frame.plan, axis=1).max(), made.frame.lengths.min()
     assert 250 / 3 < far <= 250 + 1e-6
     assert shortest == pytest.approx(given or side * round(shortest / side))
     assert shortest >= 6 * side - 1e-6
@@ -166,7 +166,7 @@ def test_rectangles_in_a_circle_are_as_large_as_is_said(tmp_path):
         main(["kit", *words, "-o", str(tmp_path / "kit")])
     assert ended.value.code == 0
     graph = load(tmp_path / "kit").frame
-    assert np.linalg.norm(graph.vertices, axis=1).max() <= 300 + 1e-6
+    assert np.linalg.norm(graph.plan, axis=1).max() <= 300 + 1e-6
     assert set(graph.lengths.round(6)) == {90, 120}
 
 

@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from scadgen.errors import InputError
-from scadgen.frame.catalogue import NAMES, named
+from scadgen.plane.catalogue import NAMES, named
 from scadgen.readers.read import read
 from scadgen.readers.reading import Reading
 
@@ -53,14 +53,14 @@ def test_a_frame_drawn_as_svg_lines_and_read_back_is_the_same(svg, name):
     (left, low), (right, high) = frame.bounds.tolist()
     lines = [
         f'<line x1="{a}" y1="{-b}" x2="{c}" y2="{-d}"/>'
-        for (a, b), (c, d) in frame.vertices[frame.edges].tolist()
+        for (a, b), (c, d) in frame.plan[frame.edges].tolist()
     ]
     width, height = right - left, high - low
     page = f'width="{width}mm" height="{height}mm" viewBox="{left} {-high} {width} {height}"'
     result = svg("".join(lines), page=page)
     assert result.notes == ()
     assert np.array_equal(result.frame.edges, frame.edges)
-    assert result.frame.vertices == pytest.approx(frame.vertices - [left, low], abs=1e-6)
+    assert result.frame.plan == pytest.approx(frame.plan - [left, low], abs=1e-6)
 
 
 @pytest.mark.parametrize("name", sorted(NAMES)[::3])
@@ -68,13 +68,13 @@ def test_a_frame_drawn_as_dxf_lines_and_read_back_is_the_same(dxf, name):
     frame = named(name)
 
     def draw(space):
-        for start, end in frame.vertices[frame.edges].tolist():
+        for start, end in frame.plan[frame.edges].tolist():
             space.add_line(start, end)
 
     result = dxf(draw)
     assert result.notes == ()
     assert np.array_equal(result.frame.edges, frame.edges)
-    assert result.frame.vertices == pytest.approx(frame.vertices, abs=1e-6)
+    assert result.frame.plan == pytest.approx(frame.plan, abs=1e-6)
 
 
 def test_shapes_are_their_outlines(svg):
@@ -88,7 +88,7 @@ def test_shapes_are_their_outlines(svg):
 def test_y_goes_up_as_the_drawing_looks(svg):
     # A mast of 30 on the left of a floor of 50 at the bottom of the page.
     frame = svg('<polyline points="0,70 0,100 50,100"/>').frame
-    assert frame.vertices.tolist() == [[0, 0], [50, 0], [0, 30]]
+    assert frame.plan.tolist() == [[0, 0], [50, 0], [0, 30]]
 
 
 def test_units_and_view_boxes_give_millimetres(svg):
@@ -141,9 +141,9 @@ def test_a_circle_is_a_polygon_within_the_tolerance(svg, flatten, shape):
     assert float(within) == flatten
     # That which closes the outline may have no length, nor the straight sides of the rectangle.
     assert 0 <= int(count) - len(frame.edges) <= 5
-    from_middle = np.linalg.norm(frame.vertices - 50, axis=1)
+    from_middle = np.linalg.norm(frame.plan - 50, axis=1)
     assert from_middle == pytest.approx(40, abs=1e-6)
-    middles = frame.vertices[frame.edges].mean(axis=1) - 50
+    middles = frame.plan[frame.edges].mean(axis=1) - 50
     assert np.linalg.norm(middles, axis=1).min() >= 40 - flatten - 1e-9
     # Not many more chords than the sagitta needs; whole numbers in each quarter.
     needed = math.pi / math.acos(1 - flatten / 40)
@@ -157,7 +157,7 @@ def test_bezier_curves_are_within_the_tolerance(svg, flatten):
     t = np.linspace(0, 1, 2001)[:, None]
     points = [np.array(p, dtype=float) for p in ((0, 0), (0, 100), (100, 100), (100, 0))]
     curve = sum(math.comb(3, k) * t**k * (1 - t) ** (3 - k) * p for k, p in enumerate(points))
-    start, end = frame.vertices[frame.edges].transpose(1, 0, 2)
+    start, end = frame.plan[frame.edges].transpose(1, 0, 2)
     along = end - start
     share = ((curve[:, None] - start) * along).sum(axis=2) / (along**2).sum(axis=1)
     foot = start + np.clip(share, 0, 1)[..., None] * along
@@ -414,8 +414,8 @@ def test_dxf_bulges_and_arcs_are_within_the_tolerance(dxf, flatten):
     found = dxf(draw, Reading(flatten=flatten))
     frame = found.frame
     assert found.notes[0].startswith(f"shapes with curves: 2, now {len(frame.edges)} segments")
-    assert np.linalg.norm(frame.vertices, axis=1) == pytest.approx(40, abs=0.01)
-    middles = frame.vertices[frame.edges].mean(axis=1)
+    assert np.linalg.norm(frame.plan, axis=1) == pytest.approx(40, abs=0.01)
+    middles = frame.plan[frame.edges].mean(axis=1)
     assert np.linalg.norm(middles, axis=1).min() >= 40 - flatten - 1e-9
     assert (frame.degree == 2).all()
     assert frame.bounds == pytest.approx(np.array([[-40, -40], [40, 40]]), abs=flatten)
@@ -456,7 +456,7 @@ def test_dxf_entities_that_are_not_shown_are_left_out_and_told(dxf):
         space.add_circle((0, 0), 3, {"invisible": 1})
 
     result = dxf(draw)
-    assert result.frame.vertices.tolist() == [[0, 0], [9, 0], [0, 9]]
+    assert result.frame.plan.tolist() == [[0, 0], [9, 0], [0, 9]]
     what = "entities that are invisible, or on layers that are off or frozen, left out"
     assert result.notes == (f"{what}: 3",)
     with pytest.raises(InputError, match=f"nothing in it that could be an edge; {what}: 1$"):
@@ -473,7 +473,7 @@ def test_dxf_splines_are_the_points_on_them(dxf, kind):
         for vertex, flags in zip(spline.vertices, (16, 8, 8, 16, 8, 8), strict=True):
             vertex.dxf.flags |= flags
 
-    assert dxf(draw).frame.vertices.tolist() == [[0, 0], [10, 0], [2, 1.6], [8, 1.6]]
+    assert dxf(draw).frame.plan.tolist() == [[0, 0], [10, 0], [2, 1.6], [8, 1.6]]
 
 
 def test_dxf_polylines_without_points_are_nothing(dxf):

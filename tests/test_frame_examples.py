@@ -10,10 +10,10 @@ import pytest
 from scadgen.check.frame import rings as build_of
 from scadgen.cli.main import main
 from scadgen.emit.frame_picture import frame_svg
-from scadgen.frame.catalogue import named
 from scadgen.frame.joints import least_ring_ratio
 from scadgen.frame.sameness import sameness
-from scadgen.frame.snapping import move_vertices
+from scadgen.plane.catalogue import named
+from scadgen.plane.snapping import move_vertices
 from scadgen.readers.read import read
 
 ROOT = Path(__file__).parent.parent
@@ -126,4 +126,4 @@ def test_the_script_draws_them_again(tmp_path):
     for name in FACTS:
         again, there = read(tmp_path / name).frame, read(FRAMES / name).frame
         assert np.array_equal(again.edges, there.edges)
-        assert again.vertices == pytest.approx(there.vertices, abs=0.01)
+        assert again.plan == pytest.approx(there.plan, abs=0.01)

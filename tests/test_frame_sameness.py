@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from scadgen.errors import InputError
-from scadgen.frame.catalogue import NAMES, named
-from scadgen.frame.graph import make_frame
 from scadgen.frame.sameness import group_values, sameness, snap
+from scadgen.plane.catalogue import NAMES, named
+from scadgen.plane.drawn import make_frame
 
 
 def star(*gaps):
@@ -35,7 +35,7 @@ def together(*parts):
 
 
 def mirrored(frame):
-    return frame.vertices * [-1, 1], frame.edges
+    return frame.plan * [-1, 1], frame.edges
 
 
 def partition(labels):
@@ -111,7 +111,7 @@ def test_a_frame_turned_over_is_made_of_the_same_joints_and_edges(name):
     frame = named(name)
     alone, both = (
         sameness(frame),
-        sameness(together((frame.vertices, frame.edges), mirrored(frame))),
+        sameness(together((frame.plan, frame.edges), mirrored(frame))),
     )
     assert len(alone.joints) == len(both.joints)
     assert len(alone.edges) == len(both.edges)
@@ -185,9 +185,9 @@ def test_turning_moving_and_renumbering_change_no_group(name, degrees, move, see
     angle = math.radians(degrees)
     turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
     order = np.random.default_rng(seed).permutation(len(frame.vertices))
-    moved = frame.vertices @ turn + move
+    moved = frame.plan @ turn + move
     other = make_frame("moved", moved[order], np.argsort(order)[frame.edges])
-    number = cKDTree(other.vertices).query(moved)[1]
+    number = cKDTree(other.plan).query(moved)[1]
     rows = {tuple(edge): n for n, edge in enumerate(other.edges.tolist())}
     edge_number = [rows[tuple(sorted(number[edge].tolist()))] for edge in frame.edges]
     one, two = sameness(frame), sameness(other)

@@ -12,12 +12,12 @@ from kits import kit, random_inside, tee, tiled
 
 from scadgen.emit.macro import workbench
 from scadgen.frame import placement
-from scadgen.frame.catalogue import NAMES
 from scadgen.kit import cells as engine_cells
 from scadgen.kit import model
 from scadgen.kit.entries import pose_entry
 from scadgen.kit.solids import REGULAR
 from scadgen.kit.store import dumps
+from scadgen.plane.catalogue import NAMES
 from scadgen.solid import affine
 
 sys.path.append(str(workbench()))

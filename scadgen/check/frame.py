@@ -13,8 +13,8 @@ from scadgen.errors import InputError
 from scadgen.frame.graph import Frame
 from scadgen.frame.joints import least_gap, least_ring_ratio, tube_start
 from scadgen.frame.kinds import choose_kinds
-from scadgen.frame.planarity import more, where
 from scadgen.frame.sameness import Sameness, joint_name
+from scadgen.frame.words import more, where
 from scadgen.joint.weave import LIMITS, any_joint
 from scadgen.kit.room import Room, reaches, room
 from scadgen.solid.affine import Floats
@@ -77,7 +77,7 @@ class Build:
         for kind in np.argsort(-worst, kind="stable")[: np.count_nonzero(worst)]:
             edges = self.same.edges[kind].edges
             at = edges[missing[edges].argmax()]
-            first, second = (where(self.frame.vertices[v]) for v in self.frame.edges[at])
+            first, second = (where(self.frame.places[v]) for v in self.frame.edges[at])
             yield (
                 f"an edge of kind {kind + 1}, {self.frame.lengths[at]:.4g} mm long, is "
                 f"{worst[kind]:.4g} mm too short for its two joints, from {first} to {second}"
@@ -94,7 +94,7 @@ class Build:
         """Where the narrowest joint of a kind stands."""
         vertices = self.same.joints[kind].vertices
         narrowest = min(vertices, key=lambda v: self.frame.gaps(v).min())
-        return where(self.frame.vertices[narrowest]) + more(len(vertices))
+        return where(self.frame.places[narrowest]) + more(len(vertices))
 
 
 def rings(

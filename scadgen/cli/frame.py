@@ -81,9 +81,9 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     from scadgen.check.frame import rings
     from scadgen.emit.frame_picture import frame_svg
     from scadgen.emit.mesh import write_atomic
-    from scadgen.frame.catalogue import ALIASES, NAMES
     from scadgen.frame.sameness import Snapped
     from scadgen.joint.weave import LIMITS, built_in
+    from scadgen.plane.catalogue import ALIASES, NAMES
     from scadgen.readers.json_frame import dumps
 
     _check_range("ring-ratio", ring_ratio, "sides", LIMITS["ring_ratio"])
@@ -156,7 +156,7 @@ def _check_files(output: Path | None, picture: Path | None) -> None:
 
 def _list(*, as_json: bool) -> None:
     """Print the named frames; those with the same options together."""
-    from scadgen.frame.catalogue import ALIASES, NAMES
+    from scadgen.plane.catalogue import ALIASES, NAMES
 
     others = {n: [alias for alias, of in ALIASES.items() if of == n] for n in NAMES}
     if as_json:

@@ -87,7 +87,7 @@ def _on_page(frame: Frame) -> tuple[Floats, int]:
     scale = float((room / np.maximum(extent, 1e-9)).min())
     width, height = extent * scale
     left = (_WIDTH - width) / 2
-    points = (frame.vertices - low) * scale * (1, -1) + (left, _MARGIN + height)
+    points = (frame.plan - low) * scale * (1, -1) + (left, _MARGIN + height)
     return points, round(height) + 2 * _MARGIN
 
 

@@ -14,10 +14,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from scadgen.frame.congruence import JointClass
+from scadgen.frame.faces import at_rim
 from scadgen.frame.graph import Frame
 from scadgen.frame.keys import ANGLE
 from scadgen.frame.sameness import Sameness
@@ -136,7 +135,7 @@ def hosted(frame: Frame, same: Sameness, *, rim: bool = True) -> Hosted:
         Whether a joint that lacks edges of another gets caps in their place.  Without, only
         lone ends of edges get some.
     """
-    inner = np.unique(same.joint_of[~_at_rim(frame)]).tolist()
+    inner = np.unique(same.joint_of[~at_rim(frame)]).tolist()
     hosts = _hosts(same, range(len(same.joints)) if not rim else inner)
     choice = _Choice(frame, same, hosts)
     chosen = choice.made()
@@ -154,31 +153,6 @@ def hosted(frame: Frame, same: Sameness, *, rim: bool = True) -> Hosted:
             ]
         ),
     )
-
-
-def _at_rim(frame: Frame) -> NDArray[np.bool_]:
-    """Which vertices are on the outline of the frame, or of one of its components."""
-    ends = frame.ends
-    count = len(ends.edge)
-    vertex = np.repeat(np.arange(len(frame.vertices)), frame.degree)
-    pairs = np.argsort(ends.edge, kind="stable").reshape(-1, 2)
-    twin = np.empty(count, dtype=np.int64)
-    twin[pairs] = pairs[:, ::-1]
-    # The way around a face on the left: from where an edge arrives to the end before it there.
-    start = ends.first[ends.neighbour]
-    after = start + (twin - start - 1) % frame.degree[ends.neighbour]
-    around = coo_array((np.ones(count), (np.arange(count), after)), shape=(count, count))
-    faces, face = connected_components(around, directed=False)
-    first, second = frame.vertices[vertex], frame.vertices[ends.neighbour]
-    area = np.bincount(face, first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0], faces)
-    at_rim = np.zeros(len(frame.vertices), dtype=bool)
-    # It goes around the outer face of a component the other way, which is alone in a tree.
-    component = np.empty(faces, dtype=np.int64)
-    component[face] = frame.components[vertex]
-    order = np.lexsort((area, component))
-    outer = order[np.unique(component[order], return_index=True)[1]]
-    at_rim[vertex[np.isin(face, outer)]] = True
-    return at_rim
 
 
 def _hosts(same: Sameness, kept: Collection[int]) -> list[list[_Host]]:

@@ -18,7 +18,7 @@ from scadgen.errors import InputError
 from scadgen.frame.alike import Ends, Slots
 from scadgen.frame.congruence import JointClass, congruent_joints
 from scadgen.frame.graph import Frame
-from scadgen.frame.planarity import where
+from scadgen.frame.words import where
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = [
@@ -206,11 +206,11 @@ def snap(frame: Frame, angle: float, length: float) -> Snapped:
     aside = frame.lengths[:, None] * np.sin(same.angle_errors[frame.edges])
     miss = np.hypot(aside.max(axis=1), same.length_errors)
     vertex, edge = int(same.angle_errors.argmax()), int(same.length_errors.argmax())
-    middle = frame.vertices[frame.edges].mean(axis=1)
+    middle = frame.places[frame.edges].mean(axis=1)
     worst = math.degrees(same.angle_errors[vertex])
     notes = (
         f"{len(same.joints)} kinds of joints, {len(same.edges)} kinds of edges",
-        f"angles change by up to {worst:.3g} degrees, at {where(frame.vertices[vertex])}",
+        f"angles change by up to {worst:.3g} degrees, at {where(frame.places[vertex])}",
         f"lengths change by up to {same.length_errors[edge]:.3g} mm, at {where(middle[edge])}",
         f"ends miss by up to {miss.max():.3g} mm, at {where(middle[miss.argmax()])}",
     )

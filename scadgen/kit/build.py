@@ -9,7 +9,6 @@ from dataclasses import replace
 import numpy as np
 
 from scadgen.errors import InputError, InvariantError
-from scadgen.frame.graph import make_frame
 from scadgen.frame.kinds import Kind, Kinds, Shape
 from scadgen.joint.symmetry import Symmetry
 from scadgen.joint.weave import Weave
@@ -23,6 +22,7 @@ from scadgen.kit.room import room
 from scadgen.kit.sizing import WIDER, Design, design
 from scadgen.kit.solids import Solids
 from scadgen.kit.wanted import Wanted, wanted_pieces
+from scadgen.plane.drawn import make_frame
 from scadgen.work.each import Means
 
 __all__ = ["Request", "build", "build_joint", "laid_out"]
@@ -69,7 +69,7 @@ def build(
     if request.tiling is None:
         _check_room(request, made, pieces, values)
     check_values(limits, values)
-    places = Places(solids, made.frame.vertices / made.unit)
+    places = Places(solids, made.frame.plan / made.unit)
     kit = Kit(
         name=request.name,
         key=request.key,

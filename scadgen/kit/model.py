@@ -10,12 +10,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from scadgen.element.squares import Key
-from scadgen.frame.catalogue import NamedTiling
 from scadgen.frame.graph import Frame
 from scadgen.frame.keys import Refused
 from scadgen.frame.placement import Placement
 from scadgen.interlock.path import Path
 from scadgen.kit.cells import Cells
+from scadgen.plane.catalogue import NamedTiling
 from scadgen.solid.affine import AffineSolid, Range
 from scadgen.solid.pose import Pose
 

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from scadgen.errors import InputError
-from scadgen.frame.catalogue import NamedTiling
 from scadgen.frame.graph import Frame
 from scadgen.frame.keys import Refused
 from scadgen.frame.placement import KEYS
@@ -18,6 +17,7 @@ from scadgen.kit.cells import check_cells
 from scadgen.kit.model import RIMS
 from scadgen.kit.pieces import Pieces
 from scadgen.kit.ranges import WALL, check_values
+from scadgen.plane.catalogue import NamedTiling
 from scadgen.solid.affine import PARAMETERS, Range
 
 __all__ = ["CLEARANCE", "Request", "default_values", "peg_length"]

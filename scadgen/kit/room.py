@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from scadgen.errors import GeometryError
 from scadgen.frame.graph import Frame
 from scadgen.frame.kinds import Kinds
-from scadgen.frame.planarity import more, where
+from scadgen.frame.words import more, where
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.lattice import make_lattice
-from scadgen.kit.apart import Apart
 from scadgen.kit.ranges import SIDE, TUBE
 from scadgen.kit.request import CLEARANCE, peg_length
+from scadgen.plane.apart import Apart
 from scadgen.solid.affine import Floats
 
 __all__ = ["Room", "reaches", "room"]
@@ -101,7 +101,7 @@ class Room:
         if missing.any():
             count, edge = int(np.count_nonzero(missing)), int(missing.argmax())
             first, second = (
-                f"vertex {v} at {where(self.frame.vertices[v])}" for v in self._ends(edge)
+                f"vertex {v} at {where(self.frame.places[v])}" for v in self._ends(edge)
             )
             msg = (
                 f"edge {edge} from {first} to {second}, {self.frame.lengths[edge]:.4g} mm "

@@ -8,17 +8,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from scadgen.errors import GeometryError, InputError, InvariantError
-from scadgen.frame.graph import Frame, make_frame
+from scadgen.frame.graph import Frame
 from scadgen.frame.joints import least_scale
 from scadgen.frame.kinds import Kinds, choose_kinds
-from scadgen.frame.periodic import Block
-from scadgen.frame.planarity import corner, where
 from scadgen.frame.sameness import Sameness, sameness
+from scadgen.frame.words import corner, where
 from scadgen.joint.weave import Weave, any_joint, built_in
-from scadgen.kit.apart import Apart
 from scadgen.kit.ranges import LONGEST, SIDE, check_values
 from scadgen.kit.request import Request
 from scadgen.kit.room import reaches, room
+from scadgen.plane.apart import Apart
+from scadgen.plane.drawn import make_frame
+from scadgen.plane.periodic import Block
 from scadgen.solid.affine import Floats
 
 __all__ = ["WIDER", "Design", "design", "growth"]
@@ -153,7 +154,7 @@ def _drawn(request: Request, scale: float = 1.0) -> tuple[Frame, Block | None]:
         raise InvariantError(msg)
     frame = request.frame
     if scale != 1.0:
-        frame = make_frame(frame.name, frame.vertices * scale, frame.edges)
+        frame = make_frame(frame.name, frame.plan * scale, frame.edges)
     return frame, None
 
 
@@ -194,7 +195,7 @@ def _check_longest(frame: Frame, side: float) -> None:
     """
     edge = int(frame.lengths.argmax())
     if frame.lengths[edge] > LONGEST:
-        first, second = (f"vertex {v} at {where(frame.vertices[v])}" for v in frame.edges[edge])
+        first, second = (f"vertex {v} at {where(frame.places[v])}" for v in frame.edges[edge])
         msg = (
             f"edge {edge} from {first} to {second}, {frame.lengths[edge]:.4g} mm long with a side "
             f"of {side:g} mm, is too long: at most {LONGEST:g} mm works; a smaller side or frame, "
@@ -225,4 +226,4 @@ def _where(frame: Frame, kinds: Kinds, number: int) -> str:
     """Where the first joint of a kind stands, and its angles."""
     vertex = int(np.flatnonzero(kinds.kind_of == number)[0])
     gaps = np.degrees(kinds.shape(number).gaps).tolist()
-    return corner(vertex, frame.vertices[vertex], gaps)
+    return corner(vertex, frame.places[vertex], gaps)

@@ -56,7 +56,7 @@ def read_json(path: Path, reading: Reading) -> Read:
 
 def dumps(frame: Frame) -> str:
     """A frame as JSON; read back it equals the frame."""
-    vertices = ",\n  ".join(json.dumps(point) for point in frame.vertices.tolist())
+    vertices = ",\n  ".join(json.dumps(point) for point in frame.plan.tolist())
     edges = ",\n  ".join(json.dumps(edge) for edge in frame.edges.tolist())
     return (
         f'{{\n "name": {json.dumps(frame.name)},\n "unit": "mm",\n'

@@ -15,9 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from scadgen.errors import InputError
-from scadgen.frame.graph import LARGEST, Frame, make_frame, vertex_pairs
-from scadgen.frame.planarity import more, where
-from scadgen.frame.repair import MOST_SEGMENTS, TOLERANCE, repair
+from scadgen.frame.graph import Frame
+from scadgen.frame.words import more, where
+from scadgen.plane.drawn import LARGEST, make_frame, vertex_pairs
+from scadgen.plane.repair import MOST_SEGMENTS, TOLERANCE, repair
 from scadgen.solid.affine import Floats
 
 __all__ = [
@@ -261,7 +262,7 @@ def _check(frame: Frame, reading: Reading) -> None:
     short = np.flatnonzero(frame.lengths < reading.shortest)
     if len(short):
         worst = int(frame.lengths.argmin())
-        ends = " to ".join(where(frame.vertices[v]) for v in frame.edges[worst])
+        ends = " to ".join(where(frame.plan[v]) for v in frame.edges[worst])
         msg = (
             f"edge from {ends} is {frame.lengths[worst]:.4g} mm long: at least "
             f"{reading.shortest:g} mm, {reading.shortest - frame.lengths[worst]:.4g} mm are "
@@ -277,7 +278,7 @@ def _check_connected(frame: Frame) -> None:
         return
     # A curve has many edges and may be small; of equally small parts the last is told.
     smallest = len(lengths) - 1 - int(lengths[::-1].argmin())
-    points = frame.vertices[frame.components == smallest]
+    points = frame.plan[frame.components == smallest]
     count = np.count_nonzero(part == smallest)
     msg = (
         f"{len(lengths)} parts that are not connected, the smallest of {count} "

@@ -15,8 +15,10 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from scadgen.errors import InputError
-from scadgen.frame.graph import LARGEST, Frame, make_frame
-from scadgen.frame.planarity import COUNTED, TOUCH, crossings, more, touches, where
+from scadgen.frame.graph import Frame
+from scadgen.frame.words import more, where
+from scadgen.plane.drawn import LARGEST, make_frame
+from scadgen.plane.planarity import COUNTED, TOUCH, crossings, touches
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["MOST_SEGMENTS", "REPAIRS", "TOLERANCE", "Repaired", "repair"]

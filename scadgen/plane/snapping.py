@@ -17,9 +17,10 @@ from scipy.sparse import block_array, coo_array, csc_array, diags_array
 from scipy.sparse.linalg import splu
 
 from scadgen.errors import InputError
-from scadgen.frame.graph import Frame, make_frame
-from scadgen.frame.planarity import where
+from scadgen.frame.graph import Frame
 from scadgen.frame.sameness import Sameness, group_values, sameness
+from scadgen.frame.words import where
+from scadgen.plane.drawn import make_frame
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["Moved", "move_vertices"]
@@ -131,14 +132,14 @@ def _told(
 ) -> Moved:
     """The result, with its notes."""
     before, after = kinds
-    moves = np.linalg.norm(points - old.vertices, axis=1)
+    moves = np.linalg.norm(points - old.plan, axis=1)
     largest, mean = float(moves.max()), float(moves.mean())
     lengths = np.linalg.norm(np.diff(points[old.edges], axis=1)[:, 0], axis=1)
     angles = _angles(old)
-    turns = np.degrees(np.abs(_gaps(points, angles) - _gaps(old.vertices, angles)))
+    turns = np.degrees(np.abs(_gaps(points, angles) - _gaps(old.plan, angles)))
     turned = float(turns.max(initial=0.0))
     stretched = float(np.abs(lengths - old.lengths).max())
-    furthest = where(old.vertices[moves.argmax()])
+    furthest = where(old.plan[moves.argmax()])
     said = (
         f"{_words(after)} instead of {before[0]} and {before[1]}",
         f"vertices move by up to {largest:.3g} mm, at {furthest}, by {mean:.3g} mm in the mean",
@@ -165,7 +166,7 @@ def _kinds(same: Sameness) -> tuple[int, int]:
 def _candidates(frame: Frame, within: float) -> Iterator[_Classes]:
     """Classes to try, the fewest first; none twice."""
     angles = _angles(frame)
-    values = _gaps(frame.vertices, angles)
+    values = _gaps(frame.plan, angles)
     found: dict[bytes, _Classes] = {}
     for one, other in itertools.product(_LEVELS, _LEVELS):
         # Both ends of an edge may move, and both edges of an angle turn.
@@ -224,7 +225,7 @@ def _nearest(frame: Frame, classes: _Classes, within: float) -> Floats | None:
         points = _met(frame, classes, weights, within)
         if points is None:
             return None
-        moves = np.linalg.norm(points - frame.vertices, axis=1)
+        moves = np.linalg.norm(points - frame.plan, axis=1)
         if moves.max() <= within:
             return points
         weights *= np.maximum(moves / within, 0.5) ** 2
@@ -234,7 +235,7 @@ def _nearest(frame: Frame, classes: _Classes, within: float) -> Floats | None:
 def _met(frame: Frame, classes: _Classes, weights: Floats, within: float) -> Floats | None:
     """Vertices that meet the classes, by Newton's method; None if it finds none near."""
     equations = _Equations(frame, classes)
-    given, points = frame.vertices, frame.vertices
+    given, points = frame.plan, frame.plan
     free = equations.guess(points)
     for _ in range(_STEPS):
         jacobian, values = equations.at(points)

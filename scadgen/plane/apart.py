@@ -11,7 +11,7 @@ import shapely
 from numpy.typing import NDArray
 
 from scadgen.frame.graph import Frame
-from scadgen.frame.planarity import where
+from scadgen.frame.words import where
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["Apart"]
@@ -64,7 +64,7 @@ class Apart:
         scale, what, vertex, other, far = max(found)
         meant = " (a larger --tolerance joins ends that are repaired)" if far < _MEANT else ""
         return (
-            f"vertex {vertex} at {where(self.frame.vertices[vertex])}: {what} {other} is "
+            f"vertex {vertex} at {where(self.frame.plan[vertex])}: {what} {other} is "
             f"{far:.4g} mm away{meant}, {(scale - 1) * far:.4g} mm too near for the joint's ring "
             f"with a side of {side:g} mm"
         )
@@ -72,8 +72,8 @@ class Apart:
     def _near(self, side: float) -> Iterator[tuple[str, Ints, Ints, Floats, Floats]]:
         """What is too near to vertices: its name, numbers, what is needed and what there is."""
         frame, around = self.frame, side * (self.rings + 0.5)
-        points, edges = np.asarray(shapely.points(frame.vertices)), frame.edges
-        lines = np.asarray(shapely.linestrings(frame.vertices[edges]))
+        points, edges = np.asarray(shapely.points(frame.plan)), frame.edges
+        lines = np.asarray(shapely.linestrings(frame.plan[edges]))
         vertex, edge = _within(points, lines, around + side * (_TUBE + _GAP))
         foreign = (edges[edge] != vertex[:, None]).all(axis=1)
         vertex, edge = vertex[foreign], edge[foreign]
@@ -88,7 +88,7 @@ class Apart:
         foreign = ~joined & (vertex != other) & (around[vertex] >= around[other])
         vertex, other = vertex[foreign], other[foreign]
         need = around[vertex] + around[other] + side * _GAP
-        far = np.linalg.norm(frame.vertices[vertex] - frame.vertices[other], axis=1)
+        far = np.linalg.norm(frame.plan[vertex] - frame.plan[other], axis=1)
         yield from _short("vertex", vertex, other, need, far)
 
 

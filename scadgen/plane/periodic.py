@@ -20,8 +20,9 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from scadgen.errors import InputError
-from scadgen.frame.cells import Cell
-from scadgen.frame.graph import Frame, canonical_order, make_frame
+from scadgen.frame.graph import Frame
+from scadgen.plane.cells import Cell
+from scadgen.plane.drawn import canonical_order, make_frame
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["MOST_TILES", "Area", "Block", "Motif", "Tiling", "positive"]
@@ -103,7 +104,7 @@ class Block:
     def scaled(self, factor: float) -> Block:
         """The same cells, some times as large."""
         tiling = replace(self.tiling, edge_length=self.tiling.edge_length * factor)
-        points = self.frame.vertices * factor
+        points = self.frame.plan * factor
         frame = make_frame(self.frame.name, points, self.frame.edges)
         return Block(tiling, frame, self.vertex_of[canonical_order(points)])
 
