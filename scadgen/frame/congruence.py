@@ -1,12 +1,13 @@
-"""Which joints can be turned onto each other: in the plane, or turned over.
+"""Which joints can be turned onto each other: about their axis, or turned over.
 
-A joint that is turned over has its edges the other way around, and its weave with them: no
-mirror makes it, for the mirror image of a connector is another part.
+A joint that is turned over has its edges the other way around, what sloped down slopes up, and its
+weave goes with them: no mirror makes it, for the mirror image of a connector is another part.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -27,6 +28,8 @@ class JointClass:
     directions
         ``(k,) float``: directions of its edges, ascending from 0; exactly as symmetric as
         `symmetry` says.
+    slopes
+        ``(k,) float``: how far each points below the plane of its ring, in radians; as symmetric.
     symmetry
         Which of its edges are alike.
     vertices
@@ -34,20 +37,21 @@ class JointClass:
     """
 
     directions: Floats
+    slopes: Floats
     symmetry: Symmetry
     vertices: Ints
 
 
 def congruent_joints(frame: Frame, tolerance: float) -> tuple[tuple[JointClass, ...], Ints, Floats]:
-    """Group vertices whose directions can be turned onto each other, or turned over onto them.
+    """Group vertices whose edges can be turned onto each other, or turned over onto them.
 
     Parameters
     ----------
     frame
         The frame.
     tolerance
-        How far each direction may be off from the first joint of its class after the best
-        turn, in radians.
+        How far each direction and slope may be off from the first joint of its class after the
+        best turn, in radians.
 
     Returns
     -------
@@ -61,44 +65,64 @@ def congruent_joints(frame: Frame, tolerance: float) -> tuple[tuple[JointClass, 
         ``(2, n) float``: direction of the class's first edge at the vertex, which the others
         follow counter-clockwise, or clockwise where it is turned over; from 0 (less by the
         tolerance at most) to before a full turn by the number of ways it can be turned onto
-        itself; and the largest difference of a direction then, in radians.
+        itself; and the largest difference of a direction or slope then, in radians.
     """
     size = len(frame.vertices)
     places, turns = np.zeros((3, size), dtype=np.int64), np.zeros((2, size))
     joints: list[JointClass] = []
     for degree in np.unique(frame.degree):
         vertices = np.flatnonzero(frame.degree == degree)
-        angles = frame.ends.angle[frame.ends.first[vertices, None] + np.arange(degree)]
-        gaps = _both_ways(frame.ends.gap[frame.ends.first[vertices, None] + np.arange(degree)])
-        first = _first_ways(gaps, tolerance)
-        for leader, members in _led(gaps, first, tolerance):
-            directions, symmetry = _symmetric(gaps[leader, first[leader]], tolerance)
+        ends = frame.ends.first[vertices, None] + np.arange(degree)
+        angles = frame.ends.angle[ends]
+        ways = _Ways.of(frame.ends.gap[ends], frame.ends.slope[ends])
+        first = _first_ways(ways, tolerance)
+        for leader, members in _led(ways, first, tolerance):
+            directions, slopes, symmetry = _symmetric(
+                *(values[leader, first[leader]] for values in (ways.gaps, ways.slopes)), tolerance
+            )
             which = vertices[members]
             places[0, which] = len(joints)
+            one = JointClass(directions, slopes, symmetry, which)
             places[1:, which], turns[:, which] = _fit(
-                directions, symmetry, angles[members], tolerance
+                one, angles[members], ways.slopes[members], tolerance
             )
-            joints.append(JointClass(directions, symmetry, which))
+            joints.append(one)
     return tuple(joints), places, turns
 
 
-def _both_ways(gaps: Floats) -> Floats:
-    """Gaps of each vertex from each slot on: counter-clockwise, then from each clockwise.
+@dataclass(frozen=True, slots=True, eq=False)
+class _Ways:
+    """All ways to look at joints of k edges: from each slot on, then turned over from each.
 
-    ``(n, k) float`` becomes ``(n, 2 k, k)``.
+    Parameters
+    ----------
+    gaps, slopes
+        ``(n, 2 k, k) float``: of each joint, each way; a slope is turned over with its edge.
     """
-    slots = np.arange(gaps.shape[1])
-    onwards = (slots[:, None] + slots) % len(slots)
-    back = (slots[:, None] - slots - 1) % len(slots)
-    return gaps[:, np.concatenate([onwards, back])]
+
+    gaps: Floats
+    slopes: Floats
+
+    @classmethod
+    def of(cls, gaps: Floats, slopes: Floats) -> Self:
+        """Those of joints with these gaps and slopes, both ``(n, k)``."""
+        onwards, back = _slots(gaps.shape[1])
+        turned = np.concatenate([slopes[:, onwards], -slopes[:, back]], axis=1) + 0.0
+        return cls(gaps[:, np.concatenate([onwards, back - 1])], turned)
 
 
-def _first_ways(gaps: Floats, tolerance: float) -> Ints:
-    """For each vertex the way around whose gaps, rounded, come first in the dictionary."""
-    coarse = np.rint(gaps / (4 * tolerance)).astype(np.int64)
-    best = np.zeros(len(gaps), dtype=np.int64)
+def _slots(degree: int) -> tuple[Ints, Ints]:
+    """The slots from each on, ``(k, k)``; and those that follow each when it is turned over."""
+    slots = np.arange(degree)
+    return (slots[:, None] + slots) % degree, (slots[:, None] - slots) % degree
+
+
+def _first_ways(ways: _Ways, tolerance: float) -> Ints:
+    """For each vertex the way whose gaps and slopes, rounded, come first in the dictionary."""
+    coarse = _coarse(ways.gaps, ways.slopes, tolerance)
+    best = np.zeros(len(coarse), dtype=np.int64)
     lowest = coarse[:, 0].copy()
-    for way in range(1, gaps.shape[1]):
+    for way in range(1, coarse.shape[1]):
         turned = coarse[:, way]
         differ = turned != lowest
         at = differ.argmax(axis=1)[:, None]
@@ -108,69 +132,86 @@ def _first_ways(gaps: Floats, tolerance: float) -> Ints:
     return best
 
 
-def _led(gaps: Floats, first: Ints, tolerance: float) -> list[tuple[int, Ints]]:
+def _coarse(gaps: Floats, slopes: Floats, tolerance: float) -> Ints:
+    """Gaps, then slopes, in whole numbers that are the same for most that are alike."""
+    both = np.concatenate([gaps, slopes], axis=-1)
+    return np.asarray(np.rint(both / (4 * tolerance)), dtype=np.int64)
+
+
+def _led(ways: _Ways, first: Ints, tolerance: float) -> list[tuple[int, Ints]]:
     """Groups around leaders: every joint within the tolerance of the first one left."""
-    count, ways, degree = gaps.shape
-    begun = gaps[np.arange(count), first]
-    order = np.lexsort(np.rint(begun / (4 * tolerance)).T[::-1])
-    if degree == 1:
-        return [(int(order[0]), np.arange(count))]
-    directions = np.cumsum(gaps[:, :, :-1], axis=2)
-    tree = cKDTree(directions.reshape(count * ways, degree - 1))
+    count, number, degree = ways.gaps.shape
+    row = np.arange(count)
+    begun = _coarse(ways.gaps[row, first], ways.slopes[row, first], tolerance)
+    directions = np.cumsum(ways.gaps[:, :, :-1], axis=2)
+    looks = np.concatenate([directions, ways.slopes], axis=2)
+    every = looks.reshape(count * number, -1)
+    tree = cKDTree(every)
     free = np.ones(count, dtype=bool)
     groups = []
-    for leader in order:
+    for leader in np.lexsort(begun.T[::-1]):
         if not free[leader]:
             continue
-        own = directions[leader, first[leader]]
+        own = looks[leader, first[leader]]
         near = np.array(tree.query_ball_point(own, 2 * tolerance, p=np.inf), dtype=np.int64)
-        off = directions.reshape(-1, degree - 1)[near] - own
-        spread = np.maximum(off.max(axis=1), 0) - np.minimum(off.min(axis=1), 0)
-        members = np.unique(near[spread <= 2 * tolerance] // ways)
+        off = every[near] - own
+        aside, down = off[:, : degree - 1], np.abs(off[:, degree - 1 :]).max(axis=1)
+        spread = aside.max(axis=1, initial=0) - aside.min(axis=1, initial=0)
+        members = np.unique(near[(spread <= 2 * tolerance) & (down <= tolerance)] // number)
         members = members[free[members]]
         free[members] = False
         groups.append((int(leader), members))
     return groups
 
 
-def _symmetric(gaps: Floats, tolerance: float) -> tuple[Floats, Symmetry]:
-    """Directions from 0 with these gaps, made exactly symmetric, and which of them are alike."""
+def _symmetric(gaps: Floats, slopes: Floats, tolerance: float) -> tuple[Floats, Floats, Symmetry]:
+    """Directions from 0 with these gaps, and slopes, made exactly symmetric; which are alike."""
     degree = len(gaps)
-    slots = np.arange(degree)
-
-    def alike(others: Ints) -> bool:
-        return bool((np.ptp(np.cumsum(gaps[others] - gaps, axis=1), axis=1) <= 2 * tolerance).all())
-
-    periods = (p for p in range(1, degree + 1) if degree % p == 0)
-    period = next(p for p in periods if alike((slots[::p, None] + slots) % degree))
+    ways = _Ways.of(gaps[None], slopes[None])
+    turns = np.ptp(np.cumsum(ways.gaps[0] - gaps, axis=1), axis=1)
+    leans = np.abs(ways.slopes[0] - slopes).max(axis=1)
+    same = (turns <= 2 * tolerance) & (leans <= 2 * tolerance)
+    onwards, back = same[:degree], same[degree:]
+    period = next(p for p in range(1, degree + 1) if degree % p == 0 and onwards[::p].all())
     # Slot s turned over is c - s, so that gap s, between s and s + 1, becomes gap c - 1 - s.
-    mirrors = (c for c in range(period) if alike((c - 1 + slots[::period, None] - slots) % degree))
-    mirror = next(mirrors, None)
+    mirror = next((c for c in range(period) if back[c::period].all()), None)
     symmetry = degree // period
-    mean = gaps.reshape(symmetry, period).mean(axis=0)
+    mean, lean = (values.reshape(symmetry, period).mean(axis=0) for values in (gaps, slopes))
     if mirror is not None:
         mean = (mean + mean[(mirror - 1 - np.arange(period)) % period]) / 2
+        lean = (lean - lean[(mirror - np.arange(period)) % period]) / 2
     within = np.concatenate([[0.0], np.cumsum(mean)[:-1]])
     starts = 2 * np.pi * np.arange(symmetry) / symmetry
-    return (starts[:, None] + within).ravel(), Symmetry(degree, period, mirror)
+    directions = (starts[:, None] + within).ravel()
+    return directions, np.tile(lean + 0.0, symmetry), Symmetry(degree, period, mirror)
 
 
-def _fit(
-    directions: Floats, symmetry: Symmetry, angles: Floats, tolerance: float
-) -> tuple[Ints, Floats]:
-    """Places and turns, as above, that put a class's directions best on those of vertices."""
-    degree = len(directions)
-    slots = np.arange(degree)
-    onwards = angles[:, (slots[:, None] + slots) % degree]
-    off = (onwards - onwards[:, :, :1]) % (2 * np.pi) - directions
-    if symmetry.mirror is None:
-        back = angles[:, (slots[:, None] - slots) % degree]
-        off = np.concatenate([off, (back[:, :, :1] - back) % (2 * np.pi) - directions], axis=1)
+def _fit(one: JointClass, angles: Floats, slopes: Floats, tolerance: float) -> tuple[Ints, Floats]:
+    """Places and turns, as above, that put a class's edges best on those of vertices.
+
+    Parameters
+    ----------
+    one
+        The class.
+    angles
+        ``(n, k) float``: directions of the vertices' edges.
+    slopes
+        ``(n, 2 k, k) float``: their slopes, each way.
+    tolerance
+        As above.
+    """
+    degree = len(one.directions)
+    onwards, back = (angles[:, slots] for slots in _slots(degree))
+    off = (onwards - onwards[:, :, :1]) % (2 * np.pi) - one.directions
+    if one.symmetry.mirror is None:
+        off = np.concatenate([off, (back[:, :, :1] - back) % (2 * np.pi) - one.directions], axis=1)
     low, high = off.min(axis=2), off.max(axis=2)
-    way = (high - low).argmin(axis=1)
+    lean = np.abs(slopes[:, : off.shape[1]] - one.slopes).max(axis=2)
+    error = np.maximum((high - low) / 2, lean)
+    way = error.argmin(axis=1)
     row = np.arange(len(angles))
     over, shift = way // degree, way % degree
     turn = (angles[row, shift] + (1 - 2 * over) * (low + high)[row, way] / 2) % (2 * np.pi)
-    turn, steps = symmetry.least_turn(turn, tolerance)
-    shift = (shift - steps * symmetry.period) % degree
-    return np.stack([over, shift]), np.stack([turn, (high - low)[row, way] / 2])
+    turn, steps = one.symmetry.least_turn(turn, tolerance)
+    shift = (shift - steps * one.symmetry.period) % degree
+    return np.stack([over, shift]), np.stack([turn, error[row, way]])
