@@ -20,7 +20,7 @@ from scadgen.emit.readme import readme
 from scadgen.emit.scad import scad
 from scadgen.emit.scad_parameters import views
 from scadgen.errors import GeometryError, InputError, KitError
-from scadgen.frame.alike import Ends
+from scadgen.frame.element_classes import ElementEnds
 from scadgen.frame.placement import Place, Placement
 from scadgen.joint.symmetry import Symmetry
 from scadgen.joint.weave import any_joint
@@ -222,7 +222,7 @@ def test_connectors_between_the_same_walls_are_one_part_in_joints_of_any_kind():
     # An edge that ends in them is one element too, whichever kind of joint it is at.
     same = found.slots.what[[0, 1, 2, 3], 2]
     over = found.slots.over[[0, 1, 2, 3], 2]
-    ends = Ends(
+    ends = ElementEnds(
         np.column_stack([same, np.full(4, 99)]),
         np.column_stack([over, np.zeros(4, dtype=bool)]),
         np.tile([False, True], (4, 1)),

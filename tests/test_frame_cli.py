@@ -14,7 +14,7 @@ from kits import drawn
 from scadgen.cli.frame_report import SIDES
 from scadgen.cli.main import cli, main
 from scadgen.emit.frame_picture import frame_svg, joint_name
-from scadgen.frame.sameness import sameness
+from scadgen.frame.classes import classify
 from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import build
 from scadgen.kit.store import load
@@ -318,7 +318,7 @@ def test_a_picture_has_every_part_in_the_colour_of_its_kind(run, tmp_path):
     path = tmp_path / "picture.svg"
     assert run("3.4.6.4", "--picture", path)[0] == 0
     frame = named("3.4.6.4")
-    same = sameness(frame)
+    same = classify(frame)
     assert path.read_text() == frame_svg(frame, same)
     edges, joints = ElementTree.parse(path).getroot().findall(f"{SVG}g")[:2]
     lines = {p.get("stroke"): p.get("d").count("M") for p in edges}
@@ -329,7 +329,7 @@ def test_a_picture_has_every_part_in_the_colour_of_its_kind(run, tmp_path):
 
 def test_a_picture_is_the_frame_to_scale_y_up():
     frame = make_frame("hook", [[0, 0], [0, 300], [40, 300]], [[0, 1], [1, 2]])
-    root = ElementTree.fromstring(frame_svg(frame, sameness(frame)))
+    root = ElementTree.fromstring(frame_svg(frame, classify(frame)))
     assert (float(root.get("width")), root.get("viewBox").split()[0]) == (900, "0")
     discs = root.findall(f"{SVG}g")[1].iter(f"{SVG}circle")
     points = np.array(sorted((float(d.get("cx")), -float(d.get("cy"))) for d in discs))

@@ -10,9 +10,9 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import Delaunay
 
-from scadgen.frame.keys import Refused
+from scadgen.frame.classes import classify
 from scadgen.frame.kinds import choose_kinds
-from scadgen.frame.sameness import sameness
+from scadgen.frame.slots import Refused
 from scadgen.joint.joint import wall_angles
 from scadgen.joint.weave import any_joint
 from scadgen.plane.catalogue import NAMES, named
@@ -20,7 +20,7 @@ from scadgen.plane.drawn import make_frame
 
 
 def kinds_of(frame, **options):
-    return choose_kinds(frame, sameness(frame), **options)
+    return choose_kinds(frame, classify(frame), **options)
 
 
 def whole_edges(frame, kinds):

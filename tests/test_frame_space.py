@@ -4,14 +4,17 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.spatial import Delaunay, cKDTree
 from scipy.spatial.transform import Rotation
 
 from scadgen.errors import InputError
+from scadgen.frame.classes import classify
 from scadgen.frame.faces import at_rim
 from scadgen.frame.graph import Frame
+from scadgen.frame.kinds import choose_kinds
+from scadgen.joint.symmetry import Symmetry
 from scadgen.plane.drawn import make_frame
 
 GOLDEN = (1 + 5**0.5) / 2
@@ -201,3 +204,117 @@ def test_a_plan_is_of_plane_frames_alone():
 def test_normals_that_no_ring_can_have_are_refused(normals, said):
     with pytest.raises(InputError, match=said):
         Frame.spatial("bad", [[0, 0, 0], [9, 0, 0], [0, 9, 0]], normals, [[0, 1], [1, 2]])
+
+
+def beside(points, normals, edges, others):
+    """A net, and what others make of its points and normals, far from it: one frame.
+
+    Also the numbers of both nets' vertices in it.
+    """
+    far = (1000, 0, 0)
+    moved, turned_normals = others(points), others(normals)
+    both = Frame.spatial(
+        "both",
+        np.concatenate([points, moved + far]),
+        np.concatenate([normals, turned_normals]),
+        np.concatenate([edges, edges + len(points)]),
+    )
+    tree = cKDTree(both.vertices)
+    return both, tree.query(points)[1], tree.query(moved + far)[1]
+
+
+def edge_classes(same, frame, numbers, edges):
+    known = {tuple(pair): n for n, pair in enumerate(frame.edges.tolist())}
+    return [same.edge_of[known[tuple(sorted(numbers[pair].tolist()))]] for pair in edges]
+
+
+@settings(deadline=None, max_examples=40)
+@given(nets(), st.integers(0, 2**32 - 1))
+def test_joints_and_edges_turned_in_space_are_the_same(net, seed):
+    points, normals, edges = net
+    frame, here, there = beside(points, normals, edges, turned(seed).apply)
+    assume(frame.ends.gap.min() > 0.01)
+    same = classify(frame)
+    assert same.joint_of[here].tolist() == same.joint_of[there].tolist()
+    assert (same.over[here] == same.over[there]).all()
+    assert edge_classes(same, frame, here, edges) == edge_classes(same, frame, there, edges)
+
+
+@settings(deadline=None, max_examples=40)
+@given(nets(), st.integers(0, 2**32 - 1))
+def test_seen_from_below_joints_are_turned_over_and_edges_the_same(net, seed):
+    points, normals, edges = net
+    frame, here, there = beside(points, normals, edges, turned(seed).apply)
+    below = np.array(frame.normals)
+    below[there] *= -1
+    frame = Frame.spatial("both", frame.vertices, below, frame.edges)
+    assume(frame.ends.gap.min() > 0.01)
+    same = classify(frame)
+    assert same.joint_of[here].tolist() == same.joint_of[there].tolist()
+    lone = [same.joints[n].symmetry.mirror is not None for n in same.joint_of[here]]
+    assert ((same.over[here] != same.over[there]) | lone).all()
+    assert edge_classes(same, frame, here, edges) == edge_classes(same, frame, there, edges)
+
+
+@settings(deadline=None, max_examples=40)
+@given(nets())
+def test_a_mirrored_net_has_other_joints(net):
+    points, normals, edges = net
+    frame, here, there = beside(points, normals, edges, lambda some: some * (-1, 1, 1))
+    assume(frame.ends.gap.min() > 0.01)
+    same = classify(frame)
+    for one, other in zip(here, there, strict=True):
+        # A joint of two edges or more that leans is itself mirrored only by chance.
+        if frame.degree[one] > 2 and np.abs(frame.slopes(one)).min() > 0.01:
+            assert same.joint_of[one] != same.joint_of[other]
+    assert frame.twists[np.isin(frame.edges[:, 0], here)] == pytest.approx(
+        [-frame.twists[n] for n in mirrored_edges(frame, here, there)], abs=1e-9
+    )
+
+
+def mirrored_edges(frame, here, there):
+    """Of each edge between some vertices, that between their images."""
+    image = dict(zip(here.tolist(), there.tolist(), strict=True))
+    known = {tuple(pair): n for n, pair in enumerate(frame.edges.tolist())}
+    own = frame.edges[np.isin(frame.edges[:, 0], here)].tolist()
+    return [known[tuple(sorted(image[v] for v in pair))] for pair in own]
+
+
+@pytest.mark.parametrize("name", SOLIDS)
+def test_a_regular_solid_has_one_joint_and_one_edge(name):
+    points, edges = nearest_joined(SOLIDS[name])
+    for turn in (Rotation.identity(), turned(3)):
+        frame = Frame.spatial(name, 30 * turn.apply(points), turn.apply(points), edges)
+        same = classify(frame)
+        assert (len(same.joints), len(same.edges)) == (1, 1)
+        (joint,) = same.joints
+        valence = frame.degree[0]
+        assert joint.symmetry == Symmetry(valence, 1, None)
+        assert joint.slopes == pytest.approx(np.full(valence, frame.ends.slope[0]))
+        assert frame.twists == pytest.approx(np.zeros(len(edges)), abs=1e-9)
+        kinds = choose_kinds(frame, same)
+        assert {len(kinds.shape(n).directions) for n in range(len(kinds.kinds))} == {valence}
+
+
+def test_lone_ends_that_slope_differ_and_those_turned_over_are_one():
+    # Posts up, up again, down, and one that is level, each from its own foot to its own top.
+    feet = np.array([[0, 0, 0], [100, 0, 0], [200, 0, 0], [300, 0, 0]], dtype=float)
+    tops = feet + np.array([[20, 0, 20], [20, 0, 30], [20, 0, -20], [20, 0, 0]])
+    points = np.concatenate([feet, tops])
+    frame = Frame.spatial("posts", points, [(0, 0, 1)] * 8, [[n, n + 4] for n in range(4)])
+    same = classify(frame)
+    at = cKDTree(frame.vertices).query(points)[1]
+    first, steeper, down, level = same.joint_of[at[:4]]
+    assert len({first, steeper, level}) == 3
+    assert first == down
+    assert same.over[at[0]] != same.over[at[2]]
+    kinds = choose_kinds(frame, same)
+    for vertex in range(8):
+        shape = kinds.shape(int(kinds.kind_of[vertex]))
+        assert len(shape.directions) == 3
+        seen = -shape.slopes if kinds.over[vertex] else shape.slopes
+        edge, end = np.argwhere(frame.edges == vertex)[0]
+        assert seen[kinds.slots[edge, end]] == pytest.approx(frame.slopes(vertex)[0])
+        assert kinds.directions(vertex)[kinds.slots[edge, end]] % (2 * np.pi) == pytest.approx(
+            frame.directions(vertex)[0]
+        )

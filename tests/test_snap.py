@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from scadgen.cli.main import main
 from scadgen.errors import InputError
-from scadgen.frame.sameness import sameness
+from scadgen.frame.classes import classify
 from scadgen.kit.store import load
 from scadgen.plane.catalogue import named
 from scadgen.plane.drawn import make_frame
@@ -30,7 +30,7 @@ FRAMES = {
 
 def kinds(frame):
     """Kinds of joints and of edges."""
-    same = sameness(frame)
+    same = classify(frame)
     return len(same.joints), len(same.edges)
 
 

@@ -10,10 +10,10 @@ from functools import cached_property
 import numpy as np
 
 from scadgen.errors import InputError
+from scadgen.frame.classes import Classes, joint_name
 from scadgen.frame.graph import Frame
 from scadgen.frame.joints import least_gap, least_ring_ratio, tube_start
 from scadgen.frame.kinds import choose_kinds
-from scadgen.frame.sameness import Sameness, joint_name
 from scadgen.frame.words import more, where
 from scadgen.joint.weave import LIMITS, any_joint
 from scadgen.kit.room import Room, reaches, room
@@ -46,7 +46,7 @@ class Build:
     """
 
     frame: Frame
-    same: Sameness
+    same: Classes
     least: Floats
     rings: Floats
     refused: tuple[str | None, ...]
@@ -98,7 +98,7 @@ class Build:
 
 
 def rings(
-    frame: Frame, same: Sameness, ring_ratio: float | None = None, *, fixed: bool = False
+    frame: Frame, same: Classes, ring_ratio: float | None = None, *, fixed: bool = False
 ) -> Build:
     """Give each kind of joint a ring, as a kit of the frame does.
 

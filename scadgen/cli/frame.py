@@ -15,8 +15,8 @@ from scadgen.cli.frame_source import has_cells, load_frame, option, source_optio
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
+    from scadgen.frame.classes import Classes, Snapped
     from scadgen.frame.graph import Frame
-    from scadgen.frame.sameness import Sameness, Snapped
 
 __all__ = ["frame"]
 
@@ -81,7 +81,7 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     from scadgen.check.frame import rings
     from scadgen.emit.frame_picture import frame_svg
     from scadgen.emit.mesh import write_atomic
-    from scadgen.frame.sameness import Snapped
+    from scadgen.frame.classes import Snapped
     from scadgen.joint.weave import LIMITS, built_in
     from scadgen.plane.catalogue import ALIASES, NAMES
     from scadgen.readers.json_frame import dumps
@@ -109,13 +109,13 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     return int(side is not None and bool(said["in_the_way"]))
 
 
-def _kinds(frame: Frame, angle: float | None, length: float | None) -> Sameness | Snapped:
+def _kinds(frame: Frame, angle: float | None, length: float | None) -> Classes | Snapped:
     """What is the same; snapped if an angle, in degrees, or a length is given for that."""
     import inspect
 
-    from scadgen.frame.sameness import sameness, snap
+    from scadgen.frame.classes import classify, snap
 
-    known = inspect.signature(sameness).parameters
+    known = inspect.signature(classify).parameters
     most = float(frame.ends.gap.min()) / 4
     if angle is not None and not 0 < angle < math.degrees(most):
         msg = (
@@ -131,7 +131,7 @@ def _kinds(frame: Frame, angle: float | None, length: float | None) -> Sameness 
     turn = usual if angle is None else math.radians(angle)
     within = known["length_tolerance"].default if length is None else length
     if angle is None and length is None:
-        return sameness(frame, turn, within)
+        return classify(frame, turn, within)
     return snap(frame, turn, within)
 
 

@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from scadgen.frame.classes import Classes, joint_name
 from scadgen.frame.graph import Frame
-from scadgen.frame.sameness import Sameness, joint_name
 from scadgen.solid.affine import Floats
 
 __all__ = ["frame_svg"]
@@ -36,7 +36,7 @@ _GOLDEN = 0.381966
 _PALE, _STRONG = ((0.62, 0.55, 0.7), 0.5), ((0.42, 0.3, 0.52), 0.75)
 
 
-def frame_svg(frame: Frame, same: Sameness) -> str:
+def frame_svg(frame: Frame, same: Classes) -> str:
     """Draw a frame, y up, with a legend where there are few kinds.
 
     Parameters
@@ -91,7 +91,7 @@ def _on_page(frame: Frame) -> tuple[Floats, int]:
     return points, round(height) + 2 * _MARGIN
 
 
-def _edges(points: Floats, frame: Frame, same: Sameness) -> Iterator[str]:
+def _edges(points: Floats, frame: Frame, same: Classes) -> Iterator[str]:
     """A group of lines for each kind of edge."""
     for kind, text in enumerate(_edge_texts(same)):
         ends = points[frame.edges[same.edges[kind].edges]].reshape(-1, 4)
@@ -99,7 +99,7 @@ def _edges(points: Floats, frame: Frame, same: Sameness) -> Iterator[str]:
         yield f'<path stroke="{_colour(kind, _PALE)}" d="{path}"><title>edge {text}</title></path>'
 
 
-def _joints(points: Floats, same: Sameness, radius: float) -> Iterator[str]:
+def _joints(points: Floats, same: Classes, radius: float) -> Iterator[str]:
     """A group of discs for each kind of joint."""
     for kind, text in enumerate(_joint_texts(same)):
         yield f'<g fill="{_colour(kind, _STRONG)}"><title>joint {text}</title>'
@@ -108,14 +108,14 @@ def _joints(points: Floats, same: Sameness, radius: float) -> Iterator[str]:
         yield "</g>"
 
 
-def _joint_texts(same: Sameness) -> list[str]:
+def _joint_texts(same: Classes) -> list[str]:
     return [
         f"{joint_name(kind)}: {len(joint.vertices)} with {_edges_of(len(joint.directions))}"
         for kind, joint in enumerate(same.joints)
     ]
 
 
-def _edge_texts(same: Sameness) -> list[str]:
+def _edge_texts(same: Classes) -> list[str]:
     return [
         f"{kind}: {len(edge.edges)} of {edge.length:.4g} mm"
         for kind, edge in enumerate(same.edges, 1)

@@ -12,7 +12,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from scadgen.errors import InputError, InvariantError
-from scadgen.frame.tangent import STRAIGHT_UP, UP, seen_along
+from scadgen.frame.tangent import STRAIGHT_UP, UP, angle_about, seen_along
 from scadgen.frame.words import where
 from scadgen.solid.affine import Floats, Ints
 
@@ -192,6 +192,16 @@ class Frame:
     def lengths(self) -> Floats:
         """``(m,) float``: length of each edge, in mm."""
         return np.asarray(np.linalg.norm(np.diff(self.vertices[self.edges], axis=1)[:, 0], axis=1))
+
+    @cached_property
+    def twists(self) -> Floats:
+        """``(m,) float``: angle about each edge from one end's normal to the other's, in radians.
+
+        Right-handed, and the same from either end; -pi to pi.
+        """
+        first, second = self.edges.T
+        along = (self.vertices[second] - self.vertices[first]) / self.lengths[:, None]
+        return angle_about(along, self.normals[first], self.normals[second])
 
     @cached_property
     def ends(self) -> Ends:

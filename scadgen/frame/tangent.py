@@ -6,7 +6,7 @@ import numpy as np
 
 from scadgen.solid.affine import Floats
 
-__all__ = ["STRAIGHT_UP", "UP", "seen_along", "tangents"]
+__all__ = ["STRAIGHT_UP", "UP", "angle_about", "seen_along", "tangents"]
 
 #: The normal of the plane.
 UP = np.array([0.0, 0.0, 1.0])
@@ -68,3 +68,21 @@ def seen_along(normals: Floats, directions: Floats) -> tuple[Floats, Floats]:
     azimuth[azimuth > 2 * np.pi - _NEARLY_ROUND] = 0.0
     azimuth[level <= STRAIGHT_UP * np.abs(down)] = np.nan
     return azimuth, np.arctan2(down, level) + 0.0
+
+
+def angle_about(axes: Floats, first: Floats, second: Floats) -> Floats:
+    """Angle about axes from one direction to another, both made square to the axis.
+
+    Parameters
+    ----------
+    axes, first, second
+        ``(k, 3) float``; axes of length 1.
+
+    Returns
+    -------
+    angles
+        ``(k,) float``: in radians, -pi to pi.
+    """
+    flat = [way - (way * axes).sum(axis=1)[:, None] * axes for way in (first, second)]
+    sine = (axes * np.cross(*flat)).sum(axis=1)
+    return np.asarray(np.arctan2(sine, (flat[0] * flat[1]).sum(axis=1)) + 0.0)

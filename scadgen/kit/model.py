@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 
 from scadgen.element.squares import Key
 from scadgen.frame.graph import Frame
-from scadgen.frame.keys import Refused
 from scadgen.frame.placement import Placement
+from scadgen.frame.slots import Refused
 from scadgen.interlock.path import Path
 from scadgen.kit.cells import Cells
 from scadgen.plane.catalogue import NamedTiling

@@ -9,8 +9,8 @@ from typing import Any
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import Frame
-from scadgen.frame.keys import Refused
 from scadgen.frame.placement import KEYS
+from scadgen.frame.slots import Refused
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.weave import Weave
 from scadgen.kit.cells import check_cells

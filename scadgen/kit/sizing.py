@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from scadgen.errors import GeometryError, InputError, InvariantError
+from scadgen.frame.classes import Classes, classify
 from scadgen.frame.graph import Frame
 from scadgen.frame.joints import least_scale
 from scadgen.frame.kinds import Kinds, choose_kinds
-from scadgen.frame.sameness import Sameness, sameness
 from scadgen.frame.words import corner, where
 from scadgen.joint.weave import Weave, any_joint, built_in
 from scadgen.kit.ranges import LONGEST, SIDE, check_values
@@ -61,7 +61,7 @@ class Design:
 
     frame: Frame
     block: Block | None
-    same: Sameness
+    same: Classes
     kinds: Kinds
     weaves: tuple[Weave, ...]
 
@@ -159,7 +159,7 @@ def _drawn(request: Request, scale: float = 1.0) -> tuple[Frame, Block | None]:
 
 
 def _designed(request: Request, frame: Frame, block: Block | None) -> Design:
-    same = sameness(frame)
+    same = classify(frame)
     kinds = choose_kinds(
         frame,
         same,
@@ -171,7 +171,7 @@ def _designed(request: Request, frame: Frame, block: Block | None) -> Design:
     return Design(frame, block, same, kinds, weaves)
 
 
-def _shortest(same: Sameness) -> float:
+def _shortest(same: Classes) -> float:
     """Length of the shortest edges, in mm, as their parts have it."""
     return min(edge.length for edge in same.edges)
 

@@ -15,8 +15,8 @@ from typing import Any, NoReturn
 
 from scadgen import __version__
 from scadgen.errors import InputError, InvariantError, KitError
-from scadgen.frame.keys import Refused
 from scadgen.frame.placement import bill
+from scadgen.frame.slots import Refused
 from scadgen.kit.bill import as_json, with_bill
 from scadgen.kit.build import laid_out
 from scadgen.kit.entries import (

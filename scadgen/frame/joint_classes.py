@@ -16,7 +16,7 @@ from scadgen.frame.graph import Frame
 from scadgen.joint.symmetry import Symmetry
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["JointClass", "congruent_joints"]
+__all__ = ["JointClass", "classify_joints"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -42,7 +42,7 @@ class JointClass:
     vertices: Ints
 
 
-def congruent_joints(frame: Frame, tolerance: float) -> tuple[tuple[JointClass, ...], Ints, Floats]:
+def classify_joints(frame: Frame, tolerance: float) -> tuple[tuple[JointClass, ...], Ints, Floats]:
     """Group vertices whose edges can be turned onto each other, or turned over onto them.
 
     Parameters
@@ -77,9 +77,8 @@ def congruent_joints(frame: Frame, tolerance: float) -> tuple[tuple[JointClass, 
         ways = _Ways.of(frame.ends.gap[ends], frame.ends.slope[ends])
         first = _first_ways(ways, tolerance)
         for leader, members in _led(ways, first, tolerance):
-            directions, slopes, symmetry = _symmetric(
-                *(values[leader, first[leader]] for values in (ways.gaps, ways.slopes)), tolerance
-            )
+            own = leader, first[leader]
+            directions, slopes, symmetry = _symmetric(ways.gaps[own], ways.slopes[own], tolerance)
             which = vertices[members]
             places[0, which] = len(joints)
             one = JointClass(directions, slopes, symmetry, which)
@@ -133,8 +132,11 @@ def _first_ways(ways: _Ways, tolerance: float) -> Ints:
 
 
 def _coarse(gaps: Floats, slopes: Floats, tolerance: float) -> Ints:
-    """Gaps, then slopes, in whole numbers that are the same for most that are alike."""
-    both = np.concatenate([gaps, slopes], axis=-1)
+    """Gaps, then slopes, in whole numbers that are the same for most that are alike.
+
+    Slopes that descend come first, as at a vertex of a dome.
+    """
+    both = np.concatenate([gaps, -slopes], axis=-1)
     return np.asarray(np.rint(both / (4 * tolerance)), dtype=np.int64)
 
 
