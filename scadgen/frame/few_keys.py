@@ -153,9 +153,8 @@ def _directions(places: Places) -> list[Ints]:
 def forests(frame: Frame) -> Iterator[NDArray[np.bool_]]:
     """Edges with whole connectors at both ends: all of a direction, while they close no loop.
 
-    Directions are those seen from above.
-
-    One for each direction that may come first, if there are few; the others follow around.
+    One for each direction that may come first, as seen from above, if there are few; the others
+    follow around.
     """
     steps = frame.vertices[frame.edges[:, 1]] - frame.vertices[frame.edges[:, 0]]
     direction = same_angles(np.arctan2(steps[:, 1], steps[:, 0]), math.pi)
