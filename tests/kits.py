@@ -11,10 +11,10 @@ from scadgen.emit.scad import scad
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import Request, build
+from scadgen.kit.live import PARAMETERS
 from scadgen.kit.store import dumps
 from scadgen.plane.catalogue import NAMES, NamedTiling
 from scadgen.plane.drawn import make_frame
-from scadgen.solid.affine import PARAMETERS
 from scadgen.solid.shell import Shell
 
 #: Every kind of kit: frame, key, bore in mm.

@@ -127,7 +127,7 @@ def test_setup_for_tests_also_needs_node_and_freecad(tmp_path, bare_path):
     copy = copy_tree(tmp_path / "tree")
     said = run(SHELL, "scripts/setup", "tests", cwd=copy, PATH=bare_path)
     (line,) = said.stderr.splitlines()
-    assert line.startswith("setup: missing: openscad xvfb xauth nodejs npm freecad")
+    assert line.startswith("setup: missing: openscad xvfb xauth nodejs npm freecad chromium")
 
 
 def test_setup_refuses_an_unknown_argument_in_one_line():

@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from scadgen.cli.console import status, table
+from scadgen.cli.console import force_option, status, table
+from scadgen.cli.words import LENGTH, meant
 from scadgen.errors import InputError, InvariantError
 
 if TYPE_CHECKING:
+    from scadgen.emit.target import Target
     from scadgen.interlock.contacts import Contacts, Mesh
     from scadgen.interlock.verdict import Certificate, Motion
 
@@ -32,13 +34,14 @@ _FILE = click.Path(path_type=Path)
 )
 @click.option(
     "--tolerance",
-    type=float,
+    type=LENGTH,
     metavar="MM",
     help="Distance up to which faces touch.  [default: 1 % of the median part's diagonal]",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 @click.option("--gif", type=_FILE, help="Film the motion into this file.")
 @click.option("--png", type=_FILE, help="Draw the motion, or the parts at rest, into this file.")
+@force_option
 def interlock(
     files: tuple[Path, ...],
     hold: tuple[str, ...],
@@ -46,6 +49,7 @@ def interlock(
     as_json: bool,  # noqa: FBT001  click passes flags so
     gif: Path | None,
     png: Path | None,
+    force: bool,  # noqa: FBT001
 ) -> int:
     """Say whether parts, placed as assembled, hold each other: STL, 3MF, OBJ, PLY or OFF.
 
@@ -64,7 +68,7 @@ def interlock(
     from scadgen.interlock.verdict import Motion
     from scadgen.tools.read_mesh import read_parts
 
-    _check_pictures(files, gif, png)
+    pictures = _pictures(files, gif, png, force=force)
     with status("reading") as say:
         parts = read_parts(files)
         names, meshes = list(parts), list(parts.values())
@@ -99,21 +103,25 @@ def interlock(
         click.echo(json.dumps(report, indent=1))
     else:
         _say(names, meshes, report, motion, motions, defaulted=not hold)
-    _draw(meshes, motion, until, gif, png)
+    _draw(meshes, motion, until, pictures)
     return 0 if motion is None else 1
 
 
-def _check_pictures(files: tuple[Path, ...], gif: Path | None, png: Path | None) -> None:
-    """Refuse pictures that would not be what their names say, or in the way of a part."""
-    from scadgen.emit.mesh import check_writable
+def _pictures(
+    files: tuple[Path, ...], gif: Path | None, png: Path | None, *, force: bool
+) -> dict[str, Target]:
+    """Where to draw, by kind; refused before any work if it may not be."""
+    from scadgen.emit.target import target
 
-    for option, path, ending in (("--gif", gif, ".gif"), ("--png", png, ".png")):
+    pictures = {}
+    for kind, path in (("gif", gif), ("png", png)):
         if path is None:
             continue
-        if path.suffix.lower() != ending or path.resolve() in {file.resolve() for file in files}:
-            msg = f"{option} {str(path)!r}: must be a file of its own that ends in {ending}"
+        if path.suffix.lower() != f".{kind}":
+            msg = f"--{kind} {str(path)!r}: must be a file of its own that ends in .{kind}"
             raise InputError(msg)
-        check_writable(path)
+        pictures[kind] = target(path, files, force=force)
+    return pictures
 
 
 def _held(names: list[str], meshes: list[Mesh], hold: tuple[str, ...]) -> list[int]:
@@ -130,7 +138,7 @@ def _held(names: list[str], meshes: list[Mesh], hold: tuple[str, ...]) -> list[i
     chosen = [name.strip() for name in itertools.chain(*lists)]
     for name in chosen:
         if name not in names:
-            msg = f"--hold {name}: must be one of {', '.join(names)}"
+            msg = f"--hold {name}: must be one of {', '.join(names)}{meant(name, names)}"
             raise InputError(msg)
     if len(set(chosen)) == len(names):
         msg = f"--hold {','.join(hold)}: holds all parts; leave at least one free"
@@ -323,15 +331,15 @@ def _as_json(names: list[str], motion: Motion) -> dict[str, Any]:
 
 
 def _draw(
-    meshes: list[Mesh], motion: Motion | None, until: float, gif: Path | None, png: Path | None
+    meshes: list[Mesh], motion: Motion | None, until: float, pictures: dict[str, Target]
 ) -> None:
     """Write the pictures that were asked for."""
-    from scadgen.emit.mesh import write_atomic
     from scadgen.emit.motion import motion_gif, motion_png
 
-    if png:
-        write_atomic(png, motion_png(meshes, motion, until=until))
+    if png := pictures.get("png"):
+        png.put(motion_png(meshes, motion, until=until), "png")
+    gif = pictures.get("gif")
     if gif and motion:
-        write_atomic(gif, motion_gif(meshes, motion, until=until))
+        gif.put(motion_gif(meshes, motion, until=until), "gif")
     elif gif:
-        click.echo(f"scadgen: nothing moves, {gif} is not written", err=True)
+        click.echo(f"scadgen: nothing moves, {gif.path} is not written", err=True)

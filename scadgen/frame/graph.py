@@ -12,8 +12,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from scadgen.errors import InputError, InvariantError
+from scadgen.frame.numbering import Numbering, counted, where
 from scadgen.frame.tangent import STRAIGHT_UP, UP, angle_about, seen_along
-from scadgen.frame.words import where
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["DECIMALS", "Ends", "Frame"]
@@ -70,6 +70,9 @@ class Frame:
     order
         ``(2 m,) int``: the ends of the edges, by vertex and counter-clockwise about its normal
         there; end ``m s + k`` is that of edge k at its first (s = 0) or second (s = 1) vertex.
+    numbering
+        What vertices and edges are called; None: by their numbers here.  Frames that differ in
+        nothing else are equal.
     """
 
     name: str
@@ -77,6 +80,7 @@ class Frame:
     normals: Floats
     edges: Ints
     order: Ints
+    numbering: Numbering | None = None
 
     def __post_init__(self) -> None:
         """Check the order and freeze the arrays."""
@@ -92,7 +96,9 @@ class Frame:
             array.setflags(write=False)
 
     @classmethod
-    def planar(cls, name: str, vertices: ArrayLike, edges: ArrayLike) -> Self:
+    def planar(
+        cls, name: str, vertices: ArrayLike, edges: ArrayLike, numbering: Numbering | None = None
+    ) -> Self:
         """A frame in the plane z = 0, with normals up.
 
         Parameters
@@ -103,12 +109,21 @@ class Frame:
             ``(n, 2) float``, in mm.
         edges
             ``(m, 2) int``: the two vertices of each edge; vertices are put in order.
+        numbering
+            What these vertices and edges are called.
         """
         points = np.pad(np.asarray(vertices, dtype=float), ((0, 0), (0, 1)))
-        return cls.spatial(name, points, np.tile(UP, (len(points), 1)), edges)
+        return cls.spatial(name, points, np.tile(UP, (len(points), 1)), edges, numbering)
 
     @classmethod
-    def spatial(cls, name: str, vertices: ArrayLike, normals: ArrayLike, edges: ArrayLike) -> Self:
+    def spatial(
+        cls,
+        name: str,
+        vertices: ArrayLike,
+        normals: ArrayLike,
+        edges: ArrayLike,
+        numbering: Numbering | None = None,
+    ) -> Self:
         """A frame in space; its vertices and edges are put in order.
 
         Parameters
@@ -121,6 +136,8 @@ class Frame:
             ``(n, 3) float``: the axis of each vertex's ring, of any length but 0.
         edges
             ``(m, 2) int``: the two vertices of each edge.
+        numbering
+            What these vertices and edges are called.
 
         Raises
         ------
@@ -131,12 +148,13 @@ class Frame:
         axes = _unit_normals(np.asarray(normals, dtype=float), points)
         rank = np.lexsort(points.T)
         pairs = np.sort(np.argsort(rank)[np.asarray(edges, dtype=np.int64)], axis=1)
-        pairs = pairs[np.lexsort(pairs.T[::-1])]
+        of_edges = np.lexsort(pairs.T[::-1])
+        pairs, numbers = pairs[of_edges], numbering and numbering.sorted(rank, of_edges)
         points, axes = points[rank], axes[rank]
         vertex, neighbour = pairs.T.ravel(), pairs[:, ::-1].T.ravel()
         azimuth, _ = seen_along(axes[vertex], points[neighbour] - points[vertex])
         _check_azimuths(azimuth, vertex, points)
-        return cls(name, points, axes, pairs, np.lexsort((azimuth, vertex)))
+        return cls(name, points, axes, pairs, np.lexsort((azimuth, vertex)), numbers)
 
     def __eq__(self, other: object) -> bool:
         """Whether name, vertices, normals, edges and their order are the same."""
@@ -182,6 +200,20 @@ class Frame:
     def places(self) -> Floats:
         """``(n, 2) float`` in the plane, else ``(n, 3)``: the vertices as messages give them."""
         return self.plan if self.is_plane else self.vertices
+
+    @cached_property
+    def called(self) -> Numbering:
+        """What vertices and edges are called."""
+        return self.numbering or counted(len(self.vertices), len(self.edges))
+
+    def called_vertex(self, vertex: int) -> str:
+        """What a vertex is called, and where it is: ``vertex 3 at (0, 80)``."""
+        return self.called.vertex(vertex, self.places[vertex])
+
+    def called_edge(self, edge: int) -> str:
+        """What an edge is called, and where it goes from and to."""
+        ends = self.edges[edge]
+        return self.called.edge(edge, ends, self.places[ends])
 
     @cached_property
     def degree(self) -> Ints:

@@ -91,10 +91,11 @@ class Weave:
             It is not an object with just the weave's parameters.
         """
         known = {f.name for f in fields(cls)} - {"name"}
+        said = {"name", "comment"}
         wanted = known - {"stretch"}
-        if not isinstance(entries, dict) or not wanted <= set(entries) - {"name"} <= known:
+        if not isinstance(entries, dict) or not wanted <= set(entries) - said <= known:
             msg = f"weave {name}: must be a JSON object with {', '.join(sorted(wanted))}"
-            if isinstance(entries, dict) and (strange := set(entries) - known - {"name"}):
+            if isinstance(entries, dict) and (strange := set(entries) - known - said):
                 msg += f", not {', '.join(sorted(map(str, strange)))}"
             raise InputError(msg)
         return cls(**{key: entries[key] for key in known & set(entries)}, name=name)

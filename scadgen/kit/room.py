@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from scadgen.errors import GeometryError
 from scadgen.frame.graph import Frame
 from scadgen.frame.kinds import Kinds
-from scadgen.frame.words import more, where
+from scadgen.frame.words import more
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.lattice import make_lattice
+from scadgen.kit.live import CLEARANCE, peg_length
 from scadgen.kit.ranges import SIDE, TUBE
-from scadgen.kit.request import CLEARANCE, peg_length
 from scadgen.plane.apart import Apart
 from scadgen.solid.affine import Floats
 
@@ -100,11 +100,8 @@ class Room:
         missing = self.missing(side)
         if missing.any():
             count, edge = int(np.count_nonzero(missing)), int(missing.argmax())
-            first, second = (
-                f"vertex {v} at {where(self.frame.places[v])}" for v in self._ends(edge)
-            )
             msg = (
-                f"edge {edge} from {first} to {second}, {self.frame.lengths[edge]:.4g} mm "
+                f"{self.frame.called_edge(edge)}, {self.frame.lengths[edge]:.4g} mm "
                 f"long, is {missing[edge]:.4g} mm too short for its two joints with a side of "
                 f"{side:g} mm{more(count)}; {self.works(side)}"
             )

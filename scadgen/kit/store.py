@@ -32,12 +32,13 @@ from scadgen.kit.entries import (
     read_placement,
     read_pose,
 )
+from scadgen.kit.live import PARAMETERS
 from scadgen.kit.model import Kit, Vertex
 from scadgen.kit.ranges import check_values
 from scadgen.kit.sense import check_sense
 from scadgen.plane.catalogue import NamedTiling
 from scadgen.plane.drawn import make_frame
-from scadgen.solid.affine import PARAMETERS, Linear, Range
+from scadgen.solid.affine import Linear, Range
 
 __all__ = ["FORMAT", "VERSION", "dumps", "load", "loads", "summary"]
 

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import DECIMALS, Frame
-from scadgen.frame.words import where
+from scadgen.frame.numbering import Numbering, counted, where
 from scadgen.plane.planarity import check_planar
 from scadgen.solid.affine import Floats, Ints
 
@@ -17,7 +17,9 @@ __all__ = ["LARGEST", "canonical_order", "make_frame", "vertex_pairs"]
 LARGEST = 1e6
 
 
-def make_frame(name: str, vertices: ArrayLike, edges: ArrayLike) -> Frame:
+def make_frame(
+    name: str, vertices: ArrayLike, edges: ArrayLike, numbering: Numbering | None = None
+) -> Frame:
     """Check a planar graph and put it in order; the order of the input does not matter.
 
     Parameters
@@ -28,20 +30,23 @@ def make_frame(name: str, vertices: ArrayLike, edges: ArrayLike) -> Frame:
         ``(n, 2) float``, in mm; they are rounded to 9 decimals.
     edges
         ``(m, 2) int``: the two vertices of each edge.
+    numbering
+        What these vertices and edges are called.
 
     Raises
     ------
     InputError
         Another shape, coordinates that are not finite or beyond `LARGEST`, an edge to a
         vertex that is not there or to itself, an edge given twice, a vertex without an edge,
-        vertices that are one, edges that meet elsewhere than at a vertex.  Numbers are those
-        of the input.
+        vertices that are one, edges that meet elsewhere than at a vertex.  They are called as
+        `numbering` says, else by their numbers in the input.
     """
     points = _points(vertices)
     pairs = vertex_pairs(edges, len(points))
-    _check_pairs(pairs, points)
-    check_planar(points, pairs)
-    return Frame.planar(name, points, pairs)
+    called = numbering or counted(len(points), len(pairs))
+    _check_pairs(pairs, points, called)
+    check_planar(points, pairs, called)
+    return Frame.planar(name, points, pairs, numbering)
 
 
 def canonical_order(points: Floats) -> Ints:
@@ -94,11 +99,12 @@ def vertex_pairs(edges: ArrayLike, count: int) -> Ints:
     return pairs
 
 
-def _check_pairs(pairs: Ints, points: Floats) -> None:
+def _check_pairs(pairs: Ints, points: Floats, called: Numbering) -> None:
     loops = np.flatnonzero(pairs[:, 0] == pairs[:, 1])
     if len(loops):
-        at = where(points[pairs[loops[0], 0]])
-        msg = f"edge {loops[0]} goes from vertex {pairs[loops[0], 0]} at {at} to itself"
+        at = pairs[loops[0], 0]
+        edge = called.short(loops[0], pairs[loops[0]], points[pairs[loops[0]]])
+        msg = f"{edge} goes from {called.vertex(at, points[at])} to itself"
         raise InputError(msg)
     low = np.sort(pairs, axis=1)
     _, first, inverse = np.unique(low, axis=0, return_index=True, return_inverse=True)
@@ -109,5 +115,5 @@ def _check_pairs(pairs: Ints, points: Floats) -> None:
         raise InputError(msg)
     alone = np.setdiff1d(np.arange(len(points)), pairs)
     if len(alone):
-        msg = f"vertex {alone[0]} at {where(points[alone[0]])} has no edge"
+        msg = f"{called.vertex(alone[0], points[alone[0]])} has no edge"
         raise InputError(msg)

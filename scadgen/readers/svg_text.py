@@ -1,67 +1,118 @@
-"""Numbers, lengths and transforms as SVG's attributes write them."""
+"""Numbers and lengths as SVG's attributes and style sheets write them."""
 
 from __future__ import annotations
 
+import math
 import re
-from typing import TYPE_CHECKING
-
-import numpy as np
+from dataclasses import dataclass
 
 from scadgen.errors import InputError
-from scadgen.solid.affine import Floats
 
-if TYPE_CHECKING:
-    from xml.etree.ElementTree import Element
+__all__ = ["DOTS", "LARGEST", "Measure", "numbers"]
 
-__all__ = ["PIXEL", "length", "lengths", "numbers", "transform"]
+#: Pixels of an inch.
+DOTS = 96.0
 
-#: A pixel, the 96th part of an inch, in mm.
-PIXEL = 25.4 / 96
-
-#: Millimetres in each unit of length.
-_UNITS = {"": PIXEL, "px": PIXEL, "mm": 1.0, "cm": 10.0, "in": 25.4, "pt": 25.4 / 72}
-_UNITS["pc"] = 12 * _UNITS["pt"]
+#: Inches in each unit of length but those of pixels.
+_UNITS = {"mm": 1 / 25.4, "cm": 10 / 25.4, "in": 1.0, "pt": 1 / 72, "pc": 1 / 6, "q": 1 / 101.6}
 
 #: Patterns that any text is searched with in linear time.
 _NUMBER = re.compile(r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?")
-_LENGTH = re.compile(rf"({_NUMBER.pattern})\s?([a-z]*)")
-_TRANSFORM = re.compile(r"\s*(\w+)\s*\(([^()]*)\)[\s,]*")
+_LENGTH = re.compile(rf"({_NUMBER.pattern})\s?([a-zA-Z]*|%)")
 
 #: Numbers go up to this: the squares of their products are numbers too.
-_LARGEST = 1e12
+LARGEST = 1e12
 
-#: How many numbers each transform takes.
-_ARGUMENTS = {
-    "matrix": (6,),
-    "translate": (1, 2),
-    "scale": (1, 2),
-    "rotate": (1, 3),
-    "skewX": (1,),
-    "skewY": (1,),
-}
+#: Sizes of letters by name, in pixels; each is larger than the one before by this.
+_FONT_SIZES = {"xx-small": 9, "x-small": 10, "small": 13, "medium": 16, "large": 18, "x-large": 24}
+_FONT_SIZES |= {"xx-large": 32, "xxx-large": 48}
+_LARGER = 1.2
 
 
-def transform(text: str) -> Floats:
-    """An SVG transform list as a matrix, ``(3, 3) float``.
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """How long lengths are where they stand.
 
-    Raises
-    ------
-    InputError
-        It is none.
+    Parameters
+    ----------
+    page
+        Width and height of the nearest viewport in user units; None where it has no size.
+    font
+        Size of letters, in user units.
+    root_font
+        Size of letters of the root.
+    dots
+        User units in an inch.
     """
-    import svgelements
 
-    matrix, at = np.eye(3), 0
-    while at < len(text):
-        found = _TRANSFORM.match(text, at)
-        values = numbers("transform", found[2]) if found else []
-        if not found or len(values) not in _ARGUMENTS.get(found[1], ()):
-            msg = f"transform {text[:60]!r}: must be {', '.join(_ARGUMENTS)} with their numbers"
+    page: tuple[float, float] | None = None
+    font: float = 16.0
+    root_font: float = 16.0
+    dots: float = DOTS
+
+    def length(self, name: str, text: str) -> float:
+        """Length in user units; a percentage is one of the side of the page that the name is of.
+
+        Raises
+        ------
+        InputError
+            It is none.
+        """
+        found = _LENGTH.fullmatch(text.strip())
+        unit = found[2].lower() if found else ""
+        if not found or not abs(float(found[1])) <= LARGEST:
+            unit = "?"
+        each = self._unit(name, unit)
+        if found is None or each is None:
+            msg = (
+                f"{name} = {text[:60]!r}: must be a number, with or without a unit such as mm or %"
+            )
             raise InputError(msg)
-        m = svgelements.Matrix(f"{found[1]}({','.join(map(repr, values))})")
-        matrix = matrix @ np.array([[m.a, m.c, m.e], [m.b, m.d, m.f], [0.0, 0.0, 1.0]])
-        at = found.end()
-    return matrix
+        return float(found[1]) * each
+
+    def font_size(self, text: str, parent: float) -> float:
+        """Size of letters, in user units; the parent's where the text is none."""
+        word = text.lower()
+        if word in _FONT_SIZES:
+            return float(_FONT_SIZES[word])
+        if word in {"larger", "smaller"}:
+            return parent * (_LARGER if word == "larger" else 1 / _LARGER)
+        found = _LENGTH.fullmatch(word)
+        if found is None or not abs(float(found[1])) <= LARGEST:
+            return parent
+        outer = Measure((100 * parent,) * 2, parent, self.root_font, self.dots)
+        each = parent / 100 if found[2] == "%" else outer._unit("font-size", found[2])
+        return parent if each is None else float(found[1]) * each
+
+    def side(self, name: str) -> float:
+        """What percentages of a length are of: width, height or, for radii, both.
+
+        Raises
+        ------
+        InputError
+            The page has no size.
+        """
+        if self.page is None:
+            msg = f"{name}: is a share of a page whose size the file does not say"
+            raise InputError(msg)
+        width, height = self.page
+        if name in {"x", "x1", "x2", "cx", "rx", "width"}:
+            return width
+        if name in {"y", "y1", "y2", "cy", "ry", "height"}:
+            return height
+        return math.hypot(width, height) / math.sqrt(2)
+
+    def _unit(self, name: str, unit: str) -> float | None:
+        """User units in a unit; None if there is no such unit."""
+        if unit in {"", "px"}:
+            return 1.0
+        if unit == "%":
+            return self.side(name) / 100
+        if unit in _UNITS:
+            return _UNITS[unit] * self.dots
+        return {"em": self.font, "ex": self.font / 2, "ch": self.font / 2}.get(
+            unit, self.root_font if unit == "rem" else None
+        )
 
 
 def numbers(what: str, text: str) -> list[float]:
@@ -76,35 +127,7 @@ def numbers(what: str, text: str) -> list[float]:
         msg = f"{what} {text[:60]!r}: must be numbers"
         raise InputError(msg)
     values = [float(number) for number in _NUMBER.findall(text)]
-    if not max(map(abs, values), default=0) <= _LARGEST:
+    if not max(map(abs, values), default=0) <= LARGEST:
         msg = f"{what} {text[:60]!r}: has a number that is too large"
         raise InputError(msg)
     return values
-
-
-def lengths(element: Element, *names: str) -> list[float]:
-    """Attributes of an element that are lengths, in user units; 0 where they are missing.
-
-    Raises
-    ------
-    InputError
-        As `length`.
-    """
-    return [length(name, element.get(name) or "0") for name in names]
-
-
-def length(name: str, text: str, *, absolute: bool = False) -> float:
-    """A length in user units, or in mm.
-
-    Raises
-    ------
-    InputError
-        It is none, or relative to something else.
-    """
-    found = _LENGTH.fullmatch(text.strip())
-    if not found or found[2] not in _UNITS or not abs(float(found[1])) <= _LARGEST:
-        units = ", ".join(filter(None, _UNITS))
-        msg = f"{name} = {text[:60]!r}: must be a number, with or without {units}"
-        raise InputError(msg)
-    size = float(found[1]) * _UNITS[found[2]]
-    return size if absolute else size / PIXEL
