@@ -9,9 +9,9 @@ import sys
 from pathlib import Path
 
 from scadgen.emit.mesh import mesh_bytes, write_atomic
-from scadgen.frame.catalogue import NamedTiling
 from scadgen.kit.build import Request, build
 from scadgen.kit.ranges import check_values
+from scadgen.plane.catalogue import NamedTiling
 from scadgen.solid.mesh import solid_faults, volume
 
 

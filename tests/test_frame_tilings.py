@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scadgen.errors import InputError
-from scadgen.frame.catalogue import ALIASES, NAMES, OPTIONS, named
-from scadgen.frame.cells import LAVES, LEFT_OUT, UNIFORM
-from scadgen.frame.simple import ladder, ring, strip
-from scadgen.frame.tilings import MOST_TILES, laves, rectangular, rhombic, uniform
+from scadgen.plane.catalogue import ALIASES, NAMES, OPTIONS, named
+from scadgen.plane.cells import LAVES, LEFT_OUT, UNIFORM
+from scadgen.plane.simple import ladder, ring, strip
+from scadgen.plane.tilings import MOST_TILES, laves, rectangular, rhombic, uniform
 
 #: Tiles of one cell by their number of sides, from the angles at a vertex by hand: a vertex
 #: of configuration (..., n, ...) has 1/n of an n-gon for each time n occurs.
@@ -36,7 +36,7 @@ def faces(frame):
     around = defaultdict(list)
     for a, b in frame.edges.tolist():
         for start, end in ((a, b), (b, a)):
-            dx, dy = frame.vertices[end] - frame.vertices[start]
+            dx, dy = frame.plan[end] - frame.plan[start]
             around[start].append((math.atan2(dy, dx), end))
     after = {}
     for vertex, found in around.items():
@@ -50,7 +50,7 @@ def faces(frame):
         while dart in after:
             face.append(dart[0])
             dart = after.pop(dart)
-        x, y = frame.vertices[face].T
+        x, y = frame.plan[face].T
         if x @ np.roll(y, -1) - y @ np.roll(x, -1) > 0:
             result.append(face)
     return result
@@ -67,9 +67,9 @@ def interior(frame, found):
     """Vertices with as many faces as edges, and the sizes of these faces in order."""
     sizes = defaultdict(list)
     for face in found:
-        x, y = frame.vertices[face].mean(axis=0)
+        x, y = frame.plan[face].mean(axis=0)
         for vertex in face:
-            at = frame.vertices[vertex]
+            at = frame.plan[vertex]
             sizes[vertex].append((math.atan2(y - at[1], x - at[0]), len(face)))
     return {
         vertex: [size for _, size in sorted(around)]
@@ -110,7 +110,7 @@ def test_rows_and_columns_are_whole_cells_without_holes(name):
 def test_faces_are_regular(name):
     frame = uniform(name, 10.0, rows=2, columns=2)
     for face in faces(frame):
-        corners = frame.vertices[face]
+        corners = frame.plan[face]
         # A regular n-gon of side s has the circumradius s / (2 sin(pi / n)).
         radius = np.linalg.norm(corners - corners.mean(axis=0), axis=1)
         assert radius == pytest.approx(5.0 / math.sin(math.pi / len(face)))
@@ -185,7 +185,7 @@ def test_a_circle_keeps_the_tiles_that_just_fit():
 @pytest.mark.parametrize("name", [*UNIFORM, *(f"V{name}" for name in LAVES)])
 def test_within_a_circle_no_edge_dangles_and_all_hangs_together(name):
     frame = named(name, edge_length=10.0, radius=61.0)
-    assert np.linalg.norm(frame.vertices, axis=1).max() <= 61.0 + 1e-4
+    assert np.linalg.norm(frame.plan, axis=1).max() <= 61.0 + 1e-4
     assert frame.degree.min() >= 2
     assert frame.components.max() == 0
     found = faces(frame)

@@ -12,11 +12,11 @@ from kits import kit, random_inside, tee, tiled
 
 from scadgen.emit.macro import workbench
 from scadgen.frame import placement
-from scadgen.frame.catalogue import NAMES
 from scadgen.kit import cells as engine_cells
 from scadgen.kit.entries import pose_entry
 from scadgen.kit.solids import REGULAR
 from scadgen.kit.store import dumps
+from scadgen.plane.catalogue import NAMES
 
 sys.path.append(str(workbench()))
 from freecad.scadgen import cells, sense

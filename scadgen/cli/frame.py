@@ -18,8 +18,8 @@ from scadgen.errors import InputError
 
 if TYPE_CHECKING:
     from scadgen.emit.target import Target
+    from scadgen.frame.classes import Classes, Snapped
     from scadgen.frame.graph import Frame
-    from scadgen.frame.sameness import Sameness, Snapped
 
 __all__ = ["frame"]
 
@@ -93,9 +93,9 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     _check_range("side", side, "mm", SIDES)
     from scadgen.check.frame import rings
     from scadgen.emit.frame_picture import frame_svg
-    from scadgen.frame.catalogue import ALIASES, NAMES
-    from scadgen.frame.sameness import Snapped
+    from scadgen.frame.classes import Snapped
     from scadgen.joint.weave import LIMITS, built_in
+    from scadgen.plane.catalogue import ALIASES, NAMES
     from scadgen.readers.json_frame import dumps
 
     _check_range("ring-ratio", ring_ratio, "sides", LIMITS["ring_ratio"])
@@ -123,13 +123,13 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     return int(side is not None and bool(said["in_the_way"]))
 
 
-def _kinds(frame: Frame, angle: float | None, length: float | None) -> Sameness | Snapped:
+def _kinds(frame: Frame, angle: float | None, length: float | None) -> Classes | Snapped:
     """What is the same; snapped if an angle, in degrees, or a length is given for that."""
     import inspect
 
-    from scadgen.frame.sameness import sameness, snap
+    from scadgen.frame.classes import classify, snap
 
-    known = inspect.signature(sameness).parameters
+    known = inspect.signature(classify).parameters
     most = float(frame.ends.gap.min()) / 4
     if angle is not None and not 0 < angle < math.degrees(most):
         msg = (
@@ -143,7 +143,7 @@ def _kinds(frame: Frame, angle: float | None, length: float | None) -> Sameness 
     turn = None if angle is None else math.radians(angle)
     within = known["length_tolerance"].default if length is None else length
     if angle is None and length is None:
-        return sameness(frame, turn, within)
+        return classify(frame, turn, within)
     return snap(frame, turn, within)
 
 
@@ -172,7 +172,7 @@ def _targets(
 
 def _list(*, as_json: bool) -> None:
     """Print the named frames; those with the same options together."""
-    from scadgen.frame.catalogue import ALIASES, NAMES
+    from scadgen.plane.catalogue import ALIASES, NAMES
 
     others = {n: [alias for alias, of in ALIASES.items() if of == n] for n in NAMES}
     if as_json:

@@ -132,7 +132,7 @@ def has_cells(name: str, options: Iterable[str]) -> bool:
     options
         Names of the options of frames that are given.
     """
-    from scadgen.frame.catalogue import ALIASES, NAMES
+    from scadgen.plane.catalogue import ALIASES, NAMES
 
     family = NAMES.get(ALIASES.get(name, name))
     shaped = {"edge_length", "rows", "columns", "width", "height", "angle"}
@@ -165,7 +165,7 @@ def load_frame(
     found = _load(name, given, room)
     if within is None:
         return found
-    from scadgen.frame.snapping import move_vertices
+    from scadgen.plane.snapping import move_vertices
     from scadgen.readers.reading import Read
 
     moved = move_vertices(found.frame, within, given.get("shortest", 0.0))
@@ -174,7 +174,7 @@ def load_frame(
 
 def _load(name: str, given: dict[str, Any], room: Callable[[Frame], float] | None) -> Read:
     """Make or read a frame as it is."""
-    from scadgen.frame.catalogue import ALIASES, NAMES, named
+    from scadgen.plane.catalogue import ALIASES, NAMES, named
     from scadgen.readers.read import READERS, read
     from scadgen.readers.reading import Read, Reading
     from scadgen.readers.units import unit

@@ -47,8 +47,8 @@ def kit_request(
     InputError
         There is no such frame or weave, or an option does not go with it.
     """
-    from scadgen.frame.catalogue import ALIASES, NAMES, NamedTiling
     from scadgen.kit.build import Request
+    from scadgen.plane.catalogue import ALIASES, NAMES, NamedTiling
 
     own = {"rows", "columns", "key", "rim", "detail", "weave", *lengths}
     # A length of 0 is given, and wrong, though it equals False.
@@ -77,7 +77,7 @@ def _of_frame(
     wanted: Request, frame: str, options: dict[str, Any]
 ) -> tuple[Request, tuple[str, ...]]:
     """The kit of a frame as it is, and what there is to say of the frame."""
-    from scadgen.frame.catalogue import ALIASES, NAMES
+    from scadgen.plane.catalogue import ALIASES, NAMES
 
     family = NAMES.get(ALIASES.get(frame, frame))
     areas = sorted(options.keys() & _AREAS)

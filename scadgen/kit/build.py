@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 
 from scadgen.errors import InputError, InvariantError
-from scadgen.frame.graph import make_frame
-from scadgen.frame.kinds import Kind, Kinds, Shape
+from scadgen.frame.kinds import Kind, Kinds
+from scadgen.frame.template import Template
 from scadgen.joint.symmetry import Symmetry
 from scadgen.joint.weave import Weave
 from scadgen.kit.model import Kit, Vertex
@@ -23,6 +23,7 @@ from scadgen.kit.room import room
 from scadgen.kit.sizing import WIDER, Design, design
 from scadgen.kit.solids import Solids
 from scadgen.kit.wanted import Wanted, wanted_pieces
+from scadgen.plane.drawn import make_frame
 from scadgen.work.each import Means
 
 __all__ = ["Request", "build", "build_joint", "laid_out"]
@@ -69,7 +70,7 @@ def build(
     if request.tiling is None:
         _check_room(request, made, pieces, values)
     check_values(limits, values)
-    places = Places(solids, made.frame.vertices / made.unit)
+    places = Places(solids, made.frame.plan / made.unit)
     kit = Kit(
         name=request.name,
         key=request.key,
@@ -141,7 +142,7 @@ def build_joint(valence: int, weave: Weave, key: str, detail: str) -> Kit:
         The weave makes no sound pieces.
     """
     directions = 2 * np.pi * np.arange(valence) / valence
-    shape = Shape(directions, Symmetry(valence, 1, 0))
+    shape = Template.level(directions, Symmetry(valence, 1, 0))
     none, no_edges = np.zeros(0), np.zeros((0, 2), dtype=np.int64)
     no_kind = none.astype(np.int64)
     kinds = Kinds((shape,), (Kind(0, (0,), ()),), no_kind, none > 0, none, no_edges)

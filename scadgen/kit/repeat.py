@@ -7,10 +7,10 @@ from functools import cached_property
 
 import numpy as np
 
-from scadgen.frame.periodic import Block
 from scadgen.frame.placement import Placement
 from scadgen.kit.cells import Cell, CellEnd, CellPiece, Cells, CellVertex
 from scadgen.kit.places import Places
+from scadgen.plane.periodic import Block
 from scadgen.solid.affine import Floats
 from scadgen.solid.pose import Pose
 

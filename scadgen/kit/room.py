@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from scadgen.errors import GeometryError
 from scadgen.frame.graph import Frame
 from scadgen.frame.kinds import Kinds
-from scadgen.frame.planarity import more
+from scadgen.frame.words import more
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.lattice import make_lattice
 from scadgen.joint.spokes import Spokes
-from scadgen.kit.apart import Apart
 from scadgen.kit.live import CLEARANCE, peg_length
 from scadgen.kit.ranges import SIDE, TUBE
+from scadgen.plane.apart import Apart
 from scadgen.solid.affine import Floats
 
 __all__ = ["Room", "reaches", "room"]

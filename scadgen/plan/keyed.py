@@ -18,8 +18,8 @@ import numpy as np
 
 from scadgen.check.proof import proved
 from scadgen.errors import GeometryError, InputError, JointError
-from scadgen.frame.keys import Refused
-from scadgen.frame.planarity import corner
+from scadgen.frame.slots import Refused
+from scadgen.frame.words import corner
 from scadgen.kit.build import Request, build
 from scadgen.kit.model import Joint, Kit
 from scadgen.plan.standing import stand
