@@ -44,9 +44,6 @@ _SPREAD = 0.15
 #: Of the others those that go or turn along a face's normal, and those up to which no more turn.
 _ALONG, _STRAIGHT = 0.2, 0.4
 
-#: Steps after which the search ends.
-_STEPS = 10000
-
 #: What a turn counts beside a shift by one size, per radian.
 _TURN = 0.4
 
@@ -91,7 +88,7 @@ class Tree:
     @property
     def hopeful(self) -> bool:
         """Whether another try may get farther."""
-        return self.patience > 0 and self.steps < _STEPS
+        return self.patience > 0
 
     def grow(self) -> list[Pose] | None:
         """Try once more: the poses of a clear way out, if that was one."""
