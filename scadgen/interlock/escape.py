@@ -42,12 +42,17 @@ class Attempts:
         Ways tried.
     steps
         Steps taken on them.
+    shift, turn
+        How far the body got from its place on them at most: its middle in mm, and its turn in
+        radians.
     finished
         Whether the search ended because no other try gets farther, not for want of steps.
     """
 
     tries: int
     steps: int
+    shift: float
+    turn: float
     finished: bool
 
 
@@ -58,6 +63,7 @@ def escape(
     seed: int,
     steps: int = STEPS,
     far: float | None = None,
+    allowed: float = 0.0,
 ) -> Path | Attempts:
     """Look for a way of a rigid body out of others.
 
@@ -73,11 +79,14 @@ def escape(
         Steps of all tries after which no other begins; straight ways are tried before.
     far
         How far apart the convex hulls are to get, in mm; None: apart at all.
+    allowed
+        How deep the meshes may be in each other and count as touching, in mm, as `Scene` has it.
 
     Returns
     -------
     way
-        A path on which `replay` finds no overlap, or what was tried in vain.
+        A path on which `replay` finds no more overlap than is allowed, or what was tried in
+        vain.
 
     Raises
     ------
@@ -92,7 +101,7 @@ def escape(
     if far is not None and not 0 <= far < math.inf:
         msg = f"far = {far} mm: must be at least 0 and finite"
         raise InputError(msg)
-    scene = Scene(moving, fixed)
+    scene = Scene(moving, fixed, allowed)
     start = Pose(np.eye(3), scene.middle)
     if not scene.clear(start, start):
         msg = "the body overlaps the others at the start: give both their clearance"
@@ -101,17 +110,25 @@ def escape(
     straight = _straight(scene, start, gap)
     if straight is not None:
         path = scene.path([start, straight])
-        if replay(path, moving, fixed, scene.step) <= scene.rounding:
+        if _holds(scene, path, moving, fixed):
             return path
     tree = Tree(scene, Walls(scene), np.random.default_rng(seed))
     while tree.hopeful and tree.steps < steps:
         way = tree.grow()
         if way is not None:
             path = scene.path([*_shortened(scene, way), _away(scene, way[-1], gap)])
-            if replay(path, moving, fixed, scene.step) <= scene.rounding:
+            if _holds(scene, path, moving, fixed):
                 return path
             tree.give_up_last()
-    return Attempts(len(scene.directions) + tree.tries, tree.steps, not tree.hopeful)
+    tries = len(scene.directions) + tree.tries
+    return Attempts(tries, tree.steps, *tree.farthest, not tree.hopeful)
+
+
+def _holds(scene: Scene, path: Path, moving: Sequence[Mesh], fixed: Sequence[Mesh]) -> bool:
+    """Whether a way that was found is one."""
+    if scene.allowed:
+        return scene.leads_out(path)
+    return replay(path, moving, fixed, scene.step) <= scene.rounding
 
 
 def _straight(scene: Scene, start: Pose, gap: float) -> Pose | None:

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import chain
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.linalg import eigh
@@ -26,11 +25,9 @@ from scadgen.interlock.follow import middle, screw
 from scadgen.interlock.path import united
 from scadgen.interlock.verdict import Motion
 from scadgen.solid.affine import Floats, Ints
+from scadgen.solid.gap import thickness
 
-if TYPE_CHECKING:
-    from manifold3d import Manifold
-
-__all__ = ["round_motions", "smooth_normals"]
+__all__ = ["round_depth", "round_motions", "smooth_normals"]
 
 #: Cosine of the angle below which facets that meet are of one round face.
 _ROUND = np.cos(np.radians(20.0))
@@ -101,6 +98,20 @@ def round_motions(
     return found
 
 
+def round_depth(meshes: Sequence[Mesh], tolerance: float) -> float:
+    """How deep round faces of parts may be in each other where facets stand for them.
+
+    Parameters
+    ----------
+    meshes
+        The parts.
+    tolerance
+        The most that it is.
+    """
+    off = [_off(*mesh, smooth_normals(*mesh)) for mesh in meshes]
+    return min(sum(sorted(off)[-2:]), tolerance)
+
+
 def smooth_normals(points: Floats, triangles: Ints) -> Floats:
     """Normals at the corners of facets, of the round faces that they stand for.
 
@@ -164,7 +175,7 @@ def _slides(
         t, w = x[:3], x[3:] / size
         fastest = np.linalg.norm(t + np.cross(x[3:], arms), axis=1).max()
         poses = (screw(about, t, w, k * far / fastest / _PLACES) for k in range(1, _PLACES + 1))
-        if all(_depth(moving.transform(pose), rest) <= depth for pose in poses):
+        if all(thickness(moving.transform(pose) ^ rest) <= depth for pose in poses):
             return _motion(meshes, body, about, t, w)
     return None
 
@@ -186,12 +197,6 @@ def _slippage(arms: Floats, normals: Floats) -> Iterator[Floats]:
     for x in chain(straight, free.T):
         yield x
         yield -x
-
-
-def _depth(moving: Manifold, rest: Manifold) -> float:
-    """Mean thickness of the thickest piece that two solids share."""
-    pieces = (moving ^ rest).decompose()
-    return max((2 * p.volume() / p.surface_area() for p in pieces if p.volume() > 0), default=0.0)
 
 
 def _motion(
