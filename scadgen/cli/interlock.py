@@ -13,9 +13,9 @@ from scadgen.cli.console import status
 from scadgen.errors import InputError, InvariantError
 
 if TYPE_CHECKING:
-    from scadgen.interlock.apart import Apart
     from scadgen.interlock.contacts import Contacts, Mesh
     from scadgen.interlock.gaps import Gap
+    from scadgen.interlock.taken import Apart
     from scadgen.interlock.verdict import Certificate, Motion
 
 __all__ = ["interlock"]

@@ -12,8 +12,8 @@ import numpy as np
 from scadgen.cli.console import counted, table
 
 if TYPE_CHECKING:
-    from scadgen.interlock.apart import Apart, Left
     from scadgen.interlock.contacts import Mesh
+    from scadgen.interlock.taken import Apart, Left
     from scadgen.interlock.verdict import Motion
     from scadgen.solid.affine import Floats
 

@@ -13,8 +13,8 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from scadgen.emit.preview import Colour, Shell, render
-from scadgen.interlock.apart import Removal
 from scadgen.interlock.follow import moved, speed
+from scadgen.interlock.taken import Removal
 from scadgen.interlock.verdict import Motion
 from scadgen.solid.affine import Floats, Ints
 
