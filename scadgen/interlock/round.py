@@ -24,10 +24,11 @@ from scipy.linalg import eigh
 from scipy.sparse import csr_array
 
 from scadgen.interlock.contacts import Contacts, Mesh, find_contacts
-from scadgen.interlock.facets import Bools, bent_faces, round_normals
+from scadgen.interlock.facets import Bools, bent_faces
 from scadgen.interlock.follow import middle, screw
 from scadgen.interlock.path import united
 from scadgen.interlock.program import farthest
+from scadgen.interlock.roundness import round_normals
 from scadgen.interlock.verdict import Motion
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.gap import thickness
