@@ -14,6 +14,7 @@ from scipy.spatial import Voronoi
 from scadgen.emit.scad import scad
 from scadgen.frame.catalogue import NamedTiling
 from scadgen.joint.joint import site_curves
+from scadgen.joint.spokes import Spokes
 from scadgen.joint.weave import Weave
 from scadgen.kit.build import Request, build
 from scadgen.kit.model import Kit
@@ -108,7 +109,7 @@ def _cells(kit: Kit) -> str:
     weave = Weave(**{k: v for k, v in kit.joints[0].weave.items() if k != "name"})
     count, side = len(kit.joints[0].turns), kit.values["side"]
     edges = np.arange(count) * 2 * np.pi / count
-    curves = site_curves(edges, weave, _CELLS)
+    curves = site_curves(Spokes.flat(edges), weave, _CELLS)
     sites = [side * curve.points(np.linspace(-1, 1, _CELLS)) for curve in curves]
     # Sites far away close all cells.
     guards = 100 * side * np.vstack([np.eye(3), -np.eye(3)])

@@ -15,7 +15,8 @@ from scadgen.element.ends import connector
 from scadgen.element.pieces import Piece
 from scadgen.element.squares import Key
 from scadgen.errors import GeometryError
-from scadgen.joint.joint import DETAILS, Detail, Joint, make_joint, site_curves
+from scadgen.joint.joint import DETAILS, Decomposition, Detail, make_joint, site_curves
+from scadgen.joint.spokes import Spokes
 from scadgen.joint.weave import built_in
 from scadgen.solid.affine import AffineSolid, Floats
 from scadgen.solid.mesh import volume
@@ -44,25 +45,24 @@ _WEIGHTS = np.array(
 _NEAREST = 12
 
 
-def _made(frame: str, detail: Detail) -> Joint:
+def _made(frame: str, detail: Detail) -> Decomposition:
     """A joint with the frame's built-in weave, on the first lattice that takes it."""
     count = {"hexagonal": 3, "square": 4}[frame]
     edges = [2 * math.pi * n / count for n in range(count)]
     for extra in (0, 2, 4):
         try:
-            return make_joint(edges, built_in(count, "fixed"), detail, extra)
+            return make_joint(Spokes.flat(edges), built_in(count, "fixed"), detail, extra)
         except GeometryError:
             if extra == 4:
                 raise
     raise AssertionError
 
 
-def _solid(joint: Joint) -> AffineSolid:
+def _solid(joint: Decomposition) -> AffineSolid:
     """A joint's connector as a closed solid, without clearance."""
-    lattice, surface = joint.lattice, joint.connectors[0]
-    key = Key(
-        "fixed", bored=False, tube_start=lattice.tube_start, pad=lattice.pad, window=0.3, depth=0.5
-    )
+    domain, surface = joint.lattice.domain, joint.connectors[0]
+    start, (pad, _) = float(domain.flats.distance[0]), domain.pad(0)
+    key = Key("fixed", bored=False, tube_start=start, pad=pad, window=0.3, depth=0.5)
     return connector(key, Piece(surface, np.zeros_like(surface.points), 0.0))
 
 
@@ -115,14 +115,14 @@ def accuracy(frame: str) -> None:
         line(f"{name}, volume moves by", f"{abs(small / large - 1):.1e} of itself")
 
 
-def _on_walls(joint: Joint) -> Floats:
+def _on_walls(joint: Decomposition) -> Floats:
     surface = joint.connectors[0]
     return np.einsum("wc,mcx->mwx", _WEIGHTS, surface.points[surface.walls]).reshape(-1, 3)
 
 
-def _to_bisector(joint: Joint, points: Floats) -> Floats:
+def _to_bisector(joint: Decomposition, points: Floats) -> Floats:
     """Distance from the exact wall, to first order: lead over its slope."""
-    curves = site_curves(joint.edges, joint.weave, _EXACT)
+    curves = site_curves(joint.spokes, joint.weave, _EXACT)
     found = [curve.distance(points) for curve in curves]
     far, slope = np.stack([d for d, _ in found]), np.stack([g for _, g in found])
     other, row = 1 + far[1:].argmin(axis=0), np.arange(len(points))
@@ -130,7 +130,7 @@ def _to_bisector(joint: Joint, points: Floats) -> Floats:
     return np.asarray(lead / np.linalg.norm(slope[other, row] - slope[0], axis=1))
 
 
-def _to_mesh(joint: Joint, points: Floats) -> Floats:
+def _to_mesh(joint: Decomposition, points: Floats) -> Floats:
     """Distance from the walls of another joint."""
     surface = joint.connectors[0]
     corners = surface.points[surface.walls]
@@ -142,6 +142,6 @@ def _to_mesh(joint: Joint, points: Floats) -> Floats:
     return best
 
 
-def _volume(joint: Joint) -> float:
+def _volume(joint: Decomposition) -> float:
     solid = _solid(joint)
     return volume(solid.points({"side": 1.0, "clearance": 0.0}), solid.triangles)

@@ -16,6 +16,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
+from scadgen.kit.live import LIVE
+from scadgen.kit.roles import PART_ROLES
+
 __all__ = ["SOURCE", "translated", "words"]
 
 SOURCE = Path(__file__).parent.parent / "freecad_workbench" / "freecad" / "scadgen"
@@ -28,6 +31,8 @@ def words(source: Path = SOURCE) -> list[tuple[str, str]]:
     """Context and text of all words that a person sees, sorted."""
     found = {pair for path in source.rglob("*.py") for pair in _python_words(path)}
     found |= {pair for path in source.rglob("*.ui") for pair in _ui_words(path)}
+    found |= {("App::Property", live.text) for live in LIVE}
+    found |= {("Scadgen", role.label) for role in PART_ROLES.values()}
     return sorted(found)
 
 

@@ -20,7 +20,7 @@ from scadgen.cli.kit import kit as command
 from scadgen.cli.kit_request import kit_request
 from scadgen.frame.placement import bill
 from scadgen.kit.build import build
-from scadgen.solid.affine import PARAMETERS
+from scadgen.kit.live import PARAMETERS
 from scadgen.work.crew import hired
 from scadgen.work.each import Means
 

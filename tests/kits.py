@@ -11,10 +11,11 @@ from scadgen.emit.scad import scad
 from scadgen.frame.catalogue import NAMES, NamedTiling
 from scadgen.frame.graph import make_frame
 from scadgen.joint.joint import DETAILS, make_joint
+from scadgen.joint.spokes import Spokes
 from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import Request, build
+from scadgen.kit.live import PARAMETERS
 from scadgen.kit.store import dumps
-from scadgen.solid.affine import PARAMETERS
 from scadgen.solid.shell import Shell
 
 #: Every kind of kit: frame, key, bore in mm.
@@ -87,7 +88,7 @@ def written(kind, detail="draft"):
 def joint(frame, detail="draft"):
     """The joint of a frame's solid kit with a fixed key, on the kit's lattice."""
     extra = int(kit(frame, detail=detail).joints[0].figures["lattice_extra"])
-    edges, weave = regular(VALENCE[frame]), WEAVES[frame]
+    edges, weave = Spokes.flat(regular(VALENCE[frame])), WEAVES[frame]
     return once(
         f"joint-{frame}-{detail}", lambda _: make_joint(edges, weave, DETAILS[detail], extra)
     )

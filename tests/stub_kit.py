@@ -13,8 +13,9 @@ import numpy as np
 from kits import kit as real_kit
 
 from scadgen.kit.build import laid_out
+from scadgen.kit.live import PARAMETERS
 from scadgen.kit.model import Kit, Part
-from scadgen.solid.affine import PARAMETERS, AffineSolid, Linear, Range
+from scadgen.solid.affine import AffineSolid, Linear, Range
 
 Term = Mapping[str, float]
 #: One square cross-section: its x, its half width, and its middle's y.

@@ -165,7 +165,7 @@ def test_the_command_of_a_kit_has_flags_as_they_are_typed(run, tmp_path, monkeyp
         '<svg xmlns="http://www.w3.org/2000/svg" width="150mm" height="9mm" viewBox="0 0 150 9">'
         '<path stroke="black" d="M0 0 H150"/><text x="9" y="9">rail</text></svg>'
     )
-    flags = ("--no-split", "--skip-unknown", "--components", "--unchecked")
+    flags = ("--no-split", "--centre", "--components", "--unchecked")
     assert run("kit", "rail.svg", *DRAFT, *flags, "-o", "one")[0] == 0
     command = load(tmp_path / "one").command.split()
     assert {*flags} < {*command}
@@ -345,7 +345,7 @@ WEAVES = {
 }
 
 BAD_KITS = [
-    ("hexagonl", (), "shows, such as hexagonal, or a file that ends in .dxf, "),
+    ("hexagonl", (), "shows (did you mean hexagonal?), or a file that ends in .dxf, "),
     ("", (), "frame '': must be a name that scadgen frame --list shows, or a file that ends in "),
     ("triangular", ("--key", "fixed"), "key = 'fixed': with pegs that are part of tubes a frame"),
     ("ladder", ("--key", "glued"), "key = 'glued': must be one of fixed, loose"),
@@ -365,7 +365,11 @@ BAD_KITS = [
     ("hexagonal", ("--rows", "-3"), "rows = -3: must be a whole number from 1 to 100"),
     ("hexagonal", ("--columns", "101"), "columns = 101: must be a whole number from 1 to 100"),
     ("hexagonal", ("--rows", "1.5"), "'1.5' is not a valid integer"),
-    ("hexagonal", ("--side", "wide"), "'wide' is not a valid float"),
+    (
+        "hexagonal",
+        ("--side", "wide"),
+        "'wide' is not a length: must be a number of mm, or have a unit, as 8mm",
+    ),
     ("hexagonal", ("--side", "-10"), "side = -10 mm: must be a number from 0"),
     ("hexagonal", ("--side", "nan"), "side = nan mm: must be a number from 0"),
     ("hexagonal", ("--side", "inf"), "side = inf mm: must be a number from 0"),
@@ -510,7 +514,7 @@ def test_no_kit_is_refused_by_every_command(refused, tmp_path):
         (("--part", "half", "--set", "gear=3"), "--set gear=3: must be NAME=MM with NAME one of"),
         (("--part", "half", "--set", "side"), "--set side: must be NAME=MM"),
         (("--part", "half", "--set", "bore=2"), "--set bore=2: must be NAME=MM"),
-        (("--part", "half", "--set", "side=wide"), "--set side=wide: 'wide' is not a number"),
+        (("--part", "half", "--set", "side=wide"), "--set side=wide: 'wide' is not a length"),
         (("--part", "half", "--set", "side=nan"), "side = nan: must be a finite number"),
         (("--part", "half", "--set", "side=1e999"), "side = inf: must be a finite number"),
         (("--part", "half", "--set", "clearance=3"), "clearance = 3 mm: must be 0 to "),

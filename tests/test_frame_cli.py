@@ -96,8 +96,8 @@ def test_a_side_that_is_too_large_is_told_with_what_is_missing(run, said):
     code, out, _ = run(*words, "--side", 10)
     assert code == 1
     short = f"{edge['missing']:.4g}"
-    start = f"\nan edge of kind 1, 40 mm long, is {short} mm too short for its two joints, from "
-    assert start in out
+    said_so = f", of kind 1 and 40 mm long, is {short} mm too short for its two joints (and 5 more)"
+    assert re.search(rf"^edge \d from vertex \d at .*{re.escape(said_so)}$", out, re.MULTILINE)
     assert re.search(r"^kind +count +length.*\n1 +6 +40 ", out, re.MULTILINE)
     assert " (and 5 more)\n" in out
     assert out.endswith("; a side of 8.342 mm or a frame 1.195 times as large would do\n")
@@ -205,8 +205,8 @@ def test_angles_that_no_ring_holds_are_told_and_loose_ends_get_caps(run, said, t
     fan = said(path, "--side", 10, code=1)
     assert fan["largest_side"] is None
     assert fan["in_the_way"][0] == (
-        "joint B at (200, 10): edges 2.862 degrees apart: must be at least 25, or no ring is wide "
-        "enough"
+        "joint B, the vertex at (200, 10): edges 2.862 degrees apart: must be at least 25, or no "
+        "ring is wide enough"
     )
     assert not [line for line in fan["in_the_way"] if "joint A" in line]
     narrow = said(path, "--ring-ratio", 10)["in_the_way"][0]
@@ -227,13 +227,10 @@ def test_repairs_of_a_drawing_are_told(said, run, sketch):
     frame = said(sketch)
     assert (frame["vertices"], frame["edges"]) == (10, 13)
     notes = frame["notes"]
-    assert sum(note.startswith("end at") for note in notes) == 3
-    assert [n for n in notes if "99.995" in n and n.endswith("0.005 mm off")]
-    assert sorted(n for n in notes if n.startswith("crossing")) == [
-        "crossing split at (50, 20)",
-        "crossing split at (50, 70)",
-    ]
-    assert len(notes) == 5
+    ends, crossings = notes
+    assert ends.startswith("3 ends joined to a segment they lie on, up to 0.005 mm off: at ")
+    assert "99.995" in ends
+    assert crossings == "2 crossings split: at (50, 20), (50, 70)"
     code, out, _ = run(sketch)
     assert code == 0
     for note in notes:
@@ -320,7 +317,7 @@ def test_a_picture_has_every_part_in_the_colour_of_its_kind(run, tmp_path):
     assert run("3.4.6.4", "--picture", path)[0] == 0
     frame = named("3.4.6.4")
     same = sameness(frame)
-    assert path.read_text() == frame_svg(frame, same)
+    assert path.read_text().startswith(frame_svg(frame, same))
     edges, joints = ElementTree.parse(path).getroot().findall(f"{SVG}g")[:2]
     lines = {p.get("stroke"): p.get("d").count("M") for p in edges}
     assert sorted(lines.values()) == sorted(len(e.edges) for e in same.edges)
@@ -338,6 +335,27 @@ def test_a_picture_is_the_frame_to_scale_y_up():
     assert (-points[:, 1] < float(root.get("height"))).all()
 
 
+def test_a_picture_has_rings_where_a_drawing_was_repaired_and_what_is_in_the_way(run, tmp_path):
+    # Two bars cross in the middle of a page of 100; a third, of 2, is too short for any joint.
+    path = tmp_path / "bars.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100" width="100mm" '
+        'height="100mm"><path fill="none" stroke="#000" d="M0 0L100 100M0 100L100 0V2"/></svg>'
+    )
+    assert run(path, "--side", 8, "--picture", tmp_path / "p.svg")[0] == 1
+    root = ElementTree.parse(tmp_path / "p.svg").getroot()
+    titles = [disc.findtext(f"{SVG}title") for disc in root.iter(f"{SVG}circle")]
+    assert "joint A, the vertex at (100, 98)" in titles
+    groups = {g.findtext(f"{SVG}title"): g for g in root.findall(f"{SVG}g")}
+
+    def places(what):
+        return [(float(c.get("cx")), float(c.get("cy"))) for c in groups[what].iter(f"{SVG}circle")]
+
+    assert places("repaired") == [(450, 450)]
+    # The bar of 2 goes from 100 to 98, its middle is 99; 8.4 pixels are a millimetre.
+    assert [450 + 8.4 * 50, 450 - 8.4 * 49] in [pytest.approx(p) for p in places("in the way")]
+
+
 def test_names_of_joints_go_on_after_z():
     names = [joint_name(kind) for kind in range(26 * 27)]
     assert names[:2] + names[25:28] + names[-1:] == ["A", "B", "Z", "AA", "AB", "ZZ"]
@@ -350,11 +368,11 @@ def test_names_of_joints_go_on_after_z():
         ((), "FRAME: is missing"),
         (("cairo", "--list"), "--list with FRAME 'cairo': give one of them"),
         (("circle",), "--list shows, or a file that ends in .dxf, .json, .obj, .off, .svg"),
-        (("kagomee",), "shows, such as kagome, or a file"),
+        (("kagomee",), "shows (did you mean kagome?), or a file"),
         (("drawing.svg",), "drawing.svg: cannot be read: No such file"),
         (("ring", "--rows", 2), "frame ring: no option --rows; it has --sides, --edge-length"),
         (("ring", "--scale", 2), "frame ring: no option --scale"),
-        ((NET, "--rows", 2), "net.json: no option --rows; it has --scale, --repair"),
+        ((NET, "--rows", 2), "net.json: no option --rows; it has --scale, --unit"),
         ((NET, "--no-split"), "net.json: --no-split needs --repair"),
         ((NET, "--tolerance", 1), "net.json: --tolerance needs --repair"),
         ((NET, "--most", 10), "at most 10"),
@@ -385,3 +403,62 @@ def test_bad_requests_are_refused_in_a_line(words, reason, run, tmp_path, monkey
     assert reason in err
     assert err.count("\n") == 1
     assert not list(tmp_path.iterdir())
+
+
+def test_a_kit_is_refused_for_what_frame_says_of_edges_all_but_along_each_other(
+    run, capsys, tmp_path
+):
+    # From (10, 390) one edge goes to (390, 10) and one to (390, 10.02): 0.02 mm at 537 mm.
+    path = tmp_path / "sliver.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" width="400mm" height="400mm" '
+        'viewBox="0 0 400 400"><path fill="none" stroke="#000" d="M10 10H390V390H10Z'
+        'M10 10L390 389.98M10 10L390 390"/></svg>'
+    )
+    code, out, _ = run(path, "--side", 10)
+    assert code == 1
+    said = "edges 0.001508 degrees apart: must be at least 25, or no ring is wide enough"
+    assert f"the vertex at (10, 390): {said}" in out
+    with pytest.raises(SystemExit):
+        main(["kit", str(path), "-o", str(tmp_path / "kit")])
+    err = capsys.readouterr().err
+    assert "the vertex at (10, 390), angles " in err
+    assert f": {said}\n" in err
+    assert not (tmp_path / "kit").exists()
+
+
+CIRCLE = (
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 400 400" width="400mm" height="400mm">'
+    '<circle cx="200" cy="200" r="{}" fill="none" stroke="#000"/></svg>'
+)
+
+
+@pytest.mark.parametrize(("radius", "side"), [(129, 10), (129, 6), (190, 10), (40, 8)])
+def test_curves_have_as_many_segments_as_joints_have_room_for(said, tmp_path, radius, side):
+    path = tmp_path / "circle.svg"
+    path.write_text(CIRCLE.format(radius))
+    fine = said(path, "--side", side, "--flatten", 0.05, code=1)
+    assert fine["largest_side"] < side
+    # A circle of 40 has no room for joints of 8, however coarse it is: as fine as ever then.
+    fits = radius > 100
+    found = said(path, "--side", side, code=0 if fits else 1)
+    assert any("--flatten" in note for note in found["notes"])
+    if not fits:
+        assert found["edges"] == fine["edges"]
+        return
+    assert found["largest_side"] >= side
+    assert 4 <= found["edges"] < fine["edges"]
+    # A segment more in each quarter would be too many.
+    chord = 2 * radius * math.sin(math.pi / (found["edges"] + 4))
+    needed = found["kinds_of_edges"][0]["length"] * side / found["largest_side"]
+    assert chord < needed
+
+
+def test_a_kit_of_a_curve_that_is_too_fine_names_what_helps(tmp_path, capsys):
+    path = tmp_path / "circle.svg"
+    path.write_text(CIRCLE.format(129))
+    with pytest.raises(SystemExit):
+        main(["kit", str(path), "--flatten", "0.05", "-o", str(tmp_path / "kit")])
+    assert (
+        "; a larger --flatten makes the segments of its curves longer\n" in capsys.readouterr().err
+    )

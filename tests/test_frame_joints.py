@@ -16,6 +16,7 @@ from scadgen.frame.joints import (
     tube_start,
 )
 from scadgen.joint.lattice import make_lattice
+from scadgen.joint.spokes import Spokes
 
 
 def test_tubes_that_touch_by_hand():
@@ -31,9 +32,9 @@ def test_the_least_ratio_is_where_the_lattice_begins_to_work(parts):
     edges = np.cumsum(gaps) - gaps[0]
     ratio = least_ring_ratio(gaps)
     if ratio > 0.6:
-        make_lattice(edges, ratio + 1e-6, 5)
+        make_lattice(Spokes.flat(edges), ratio + 1e-6, 5)
         with pytest.raises(GeometryError, match="two tubes overlap"):
-            make_lattice(edges, ratio - 1e-6, 5)
+            make_lattice(Spokes.flat(edges), ratio - 1e-6, 5)
 
 
 @given(st.floats(0.1, 3.0), st.floats(0.0, 1.0))

@@ -16,6 +16,7 @@ from scadgen.frame.keys import Refused
 from scadgen.frame.kinds import choose_kinds
 from scadgen.frame.sameness import sameness
 from scadgen.joint.joint import wall_angles
+from scadgen.joint.spokes import Spokes
 from scadgen.joint.weave import any_joint
 
 
@@ -99,7 +100,9 @@ def seen(joint, kind, slot):
 
 def walls_of(joint, kind):
     """From each edge to the wall after it, and from there to the next edge."""
-    after = wall_angles(joint.directions.tolist(), any_joint(float(joint.gaps.min())), kind.keys)
+    after = wall_angles(
+        Spokes.flat(joint.directions), any_joint(float(joint.gaps.min())), kind.keys
+    )
     return np.column_stack([after, joint.gaps - after])
 
 

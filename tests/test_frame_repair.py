@@ -104,7 +104,8 @@ def test_repairing_twice_is_repairing_once(drawing, tolerance):
     twice = repair("scribble", segments(once.frame), tolerance)
     assert twice.frame == once.frame
     assert twice.counts == NONE
-    assert sum(once.counts.values()) == len(once.notes)
+    assert sum(once.counts.values()) == len(once.places)
+    assert sum(count > 0 for count in once.counts.values()) == len(once.notes)
     assert not any("\n" in note for note in once.notes)
 
 

@@ -14,11 +14,9 @@ from scadgen.emit.macro import workbench
 from scadgen.frame import placement
 from scadgen.frame.catalogue import NAMES
 from scadgen.kit import cells as engine_cells
-from scadgen.kit import model
 from scadgen.kit.entries import pose_entry
 from scadgen.kit.solids import REGULAR
 from scadgen.kit.store import dumps
-from scadgen.solid import affine
 
 sys.path.append(str(workbench()))
 from freecad.scadgen import cells, sense
@@ -256,9 +254,7 @@ def test_a_broken_kit_of_another_frame_is_refused_in_one_line(change, says):
 
 
 def test_both_sides_know_the_same_names():
-    assert sense.PARAMETERS == affine.PARAMETERS
     assert (sense.ROLES, sense.KEYS) == (placement.ROLES, placement.KEYS)
-    assert sense.PART_ROLES == model.PART_ROLES
     assert cells.MOST_CELLS == engine_cells.MOST_CELLS
     path = workbench() / "freecad" / "scadgen" / "names.py"
     tables = {
@@ -266,8 +262,6 @@ def test_both_sides_know_the_same_names():
         for node in ast.parse(path.read_text("utf-8")).body
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Dict)
     }
-    assert tables["LENGTHS"] == sense.PARAMETERS
-    assert tables["_LABELS"] == tables["_ALONE"] == sense.PART_ROLES
     assert tables["COLOURS"] == tables["ROLE_LABELS"] == sense.ROLES
     assert tables["_REGULAR"] == REGULAR
 

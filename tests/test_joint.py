@@ -16,6 +16,7 @@ from scadgen.errors import GeometryError, InputError, InvariantError
 from scadgen.joint.curve import distances, nearest_curve
 from scadgen.joint.joint import DETAILS, make_joint, site_curves, wall_angles
 from scadgen.joint.lattice import make_lattice
+from scadgen.joint.spokes import Spokes
 from scadgen.joint.weave import Weave, any_joint
 from scadgen.solid.crossing import crossing_faces
 from scadgen.solid.mesh import components, solid_faults, volume, weld_float32
@@ -35,10 +36,10 @@ REGULAR = [(frame, detail) for frame in WEAVES for detail in ("draft", "standard
 
 def general(frame, detail):
     """Joint by the general path: a hundred-billionth of a radian off regular."""
-    edges = regular(len(joint(frame).edges))
+    edges = regular(len(joint(frame).spokes))
     edges[1] += 1e-11
     extra = int(kit(frame, detail=detail).joints[0].figures["lattice_extra"])
-    return make_joint(edges, WEAVES[frame], DETAILS[detail], extra)
+    return make_joint(Spokes.flat(edges), WEAVES[frame], DETAILS[detail], extra)
 
 
 def pieces(made):
@@ -48,7 +49,7 @@ def pieces(made):
 def assert_partition(made):
     """Connectors fill the domain; halves fill their connector; all are sound."""
     whole = [volume(*mesh(c)) for c in made.connectors]
-    assert sum(whole) == pytest.approx(made.lattice.volume(), rel=1e-9)
+    assert sum(whole) == pytest.approx(made.lattice.domain.volume(), rel=1e-9)
     for connector, pair in zip(whole, made.halves, strict=True):
         assert sum(volume(*mesh(half)) for half in pair) == pytest.approx(connector, rel=1e-9)
     for surface in pieces(made):
@@ -80,7 +81,7 @@ def test_connectors_partition_the_domain(frame, detail):
     assert_partition(made)
     nodes = made.lattice.nodes
     ring = polygon_area(nodes[:, -1, 0, :2]) - polygon_area(nodes[:, 0, 0, :2])
-    assert len(made.edges) * volume(*mesh(made.connectors[0])) == pytest.approx(ring, rel=1e-9)
+    assert len(made.spokes) * volume(*mesh(made.connectors[0])) == pytest.approx(ring, rel=1e-9)
 
 
 @pytest.mark.parametrize(("frame", "detail"), REGULAR)
@@ -133,12 +134,12 @@ def test_other_programs_find_the_pieces_watertight():
 
 @pytest.mark.parametrize("degrees", DIRECTIONS, ids=lambda d: "-".join(map(str, d)))
 def test_uneven_joints_partition_too(degrees):
-    made = make_joint(np.radians(degrees).tolist(), UNEVEN, DETAILS["draft"])
+    made = make_joint(Spokes.flat(np.radians(degrees)), UNEVEN, DETAILS["draft"])
     assert len(made.connectors) == len(made.halves) == len(degrees)
     assert_partition(made)
     nodes = made.lattice.nodes
     ring = polygon_area(nodes[:, -1, 0, :2]) - polygon_area(nodes[:, 0, 0, :2])
-    assert made.lattice.volume() == pytest.approx(ring, rel=1e-12)
+    assert made.lattice.domain.volume() == pytest.approx(ring, rel=1e-12)
 
 
 @settings(max_examples=12)
@@ -147,7 +148,7 @@ def test_any_directions_partition_or_are_refused(gaps, start):
     assume(62 <= 360 - sum(gaps) <= 180)
     edges = np.radians(start + np.cumsum([0, *gaps]))
     try:
-        assert_partition(make_joint(edges.tolist(), UNEVEN, DETAILS["draft"]))
+        assert_partition(make_joint(Spokes.flat(edges), UNEVEN, DETAILS["draft"]))
     except (GeometryError, InvariantError) as error:  # kits take another lattice then
         assert "\n" not in str(error)  # noqa: PT017  both ends are good
 
@@ -158,8 +159,10 @@ def test_a_joint_with_its_edges_the_other_way_around_is_the_joint_turned_over(ga
     edges = np.radians(np.cumsum([0, *gaps[:-1]]))
     back = np.sort(-edges % (2 * np.pi))
     count, weave = len(edges), any_joint(math.radians(min(gaps)))
-    one = make_joint(edges.tolist(), weave, DETAILS["draft"], 0, keys)
-    other = make_joint(back.tolist(), weave, DETAILS["draft"], 0, [-key % count for key in keys])
+    one = make_joint(Spokes.flat(edges), weave, DETAILS["draft"], 0, keys)
+    other = make_joint(
+        Spokes.flat(back), weave, DETAILS["draft"], 0, [-key % count for key in keys]
+    )
     for slot in range(count):
         here, there = one.halves[slot], other.halves[-slot % count]
         pairs = [(one.connectors[slot], other.connectors[-slot % count])]
@@ -177,7 +180,7 @@ def test_tubes_start_as_exact_squares(frame):
     (loop,) = surface.loops(("outer", 0))
     corners = surface.points[loop]
     assert len(corners) == 4
-    assert np.allclose(corners[:, 0], made.lattice.tube_start, atol=1e-12)
+    assert np.allclose(corners[:, 0], made.lattice.domain.flats.distance[0], atol=1e-12)
     assert np.allclose(np.abs(corners[:, 1:]), 0.5, atol=1e-12)
 
 
@@ -194,16 +197,16 @@ def test_walls_are_equally_far_from_two_curves():
 @pytest.mark.parametrize("edges", [[], [0.0], [0.0, 3.0, 2.0], [0.0, 0.0], [-1.0, 2.0], [0.0, 7.0]])
 def test_directions_that_do_not_ascend_are_refused(edges):
     with pytest.raises(InputError, match=re.escape(f"edges {edges}: must be two or more")):
-        make_joint(edges, UNEVEN, DETAILS["draft"])
+        make_joint(Spokes.flat(edges), UNEVEN, DETAILS["draft"])
 
 
 def test_a_ring_too_small_for_its_tubes_is_refused_with_what_is_needed():
     with pytest.raises(GeometryError, match="tubes overlap 30 degrees apart") as said:
-        make_lattice(np.radians([0, 30, 180]).tolist(), 1.2, 5)
+        make_lattice(Spokes.flat(np.radians([0, 30, 180])), 1.2, 5)
     need = float(str(said.value).rsplit("at least ", 1)[1])
     # Two squares of side 1, 30 degrees apart, touch where half a side is seen under 15 degrees.
     assert need == pytest.approx(0.5 / math.sin(math.radians(15)) - 0.5, abs=1e-3)
-    make_lattice(np.radians([0, 30, 180]).tolist(), need + 1e-3, 5)
+    make_lattice(Spokes.flat(np.radians([0, 30, 180])), need + 1e-3, 5)
 
 
 @pytest.mark.parametrize(
@@ -217,7 +220,7 @@ def test_a_ring_too_small_for_its_tubes_is_refused_with_what_is_needed():
 )
 def test_a_weave_that_makes_no_pieces_is_refused(count, weave, message):
     with pytest.raises(GeometryError, match=message):
-        make_joint(regular(count), weave, DETAILS["draft"])
+        make_joint(Spokes.flat(regular(count)), weave, DETAILS["draft"])
 
 
 def test_walls_are_beside_keys_and_else_in_the_middle_of_their_gaps():
@@ -230,9 +233,9 @@ def test_walls_are_beside_keys_and_else_in_the_middle_of_their_gaps():
         ((2,), [45, 120 - near, near]),
         ((1, 2), [90 - near, near, near]),
     ):
-        assert np.degrees(wall_angles(edges, weave, keys)) == pytest.approx(expected)
+        assert np.degrees(wall_angles(Spokes.flat(edges), weave, keys)) == pytest.approx(expected)
     plain = replace(weave, stretch=None)
-    assert np.degrees(wall_angles(edges, plain, (0,))) == pytest.approx([45, 60, 75])
+    assert np.degrees(wall_angles(Spokes.flat(edges), plain, (0,))) == pytest.approx([45, 60, 75])
 
 
 def test_distances_that_are_not_wanted_are_bounded_from_above():
@@ -249,6 +252,6 @@ def test_distances_that_are_not_wanted_are_bounded_from_above():
 @given(st.floats(0.8, 2.6), st.integers(0, 2**32))
 def test_the_nearest_curve_is_that_of_the_least_distance(turn, seed):
     edges = [0.0, turn, 4.2]
-    curves = site_curves(edges, any_joint(turn), 40)
+    curves = site_curves(Spokes.flat(edges), any_joint(turn), 40)
     points = np.random.default_rng(seed).uniform([-5, -5, -0.6], [5, 5, 0.6], (300, 3))
     assert np.array_equal(nearest_curve(curves, points), distances(curves, points).argmin(axis=0))

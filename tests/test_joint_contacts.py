@@ -18,7 +18,7 @@ FRAMES = ["hexagonal", "square"]
 def standing(made, edge):
     """A whole connector at its edge."""
     points, triangles = mesh(made.connectors[edge])
-    c, s = math.cos(made.edges[edge]), math.sin(made.edges[edge])
+    c, s = math.cos(angle := made.spokes.azimuths[edge]), math.sin(angle)
     return points @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]), triangles
 
 
@@ -42,6 +42,6 @@ def test_contacts_lie_half_way_between_two_curves_and_where_meshes_touch(frame):
     step = 1e-5 * direct.normals
     there = np.stack([curve.distance(direct.points + step)[0] for curve in made.curves])
     assert (there[direct.second, row] < there[direct.first, row]).all()
-    found = find_contacts([standing(made, n) for n in range(len(made.edges))], 1e-5)
+    found = find_contacts([standing(made, n) for n in range(len(made.spokes))], 1e-5)
     pairs = {*zip(found.first.tolist(), found.second.tolist(), strict=True)}
     assert {*zip(direct.first.tolist(), direct.second.tolist(), strict=True)} == pairs

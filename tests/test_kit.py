@@ -14,8 +14,8 @@ from scadgen.errors import GeometryError, InputError
 from scadgen.frame.placement import Place, Placement
 from scadgen.joint.weave import Weave
 from scadgen.kit.build import build
+from scadgen.kit.live import PARAMETERS
 from scadgen.kit.ranges import check_values
-from scadgen.solid.affine import PARAMETERS
 from scadgen.solid.gap import overlap_volume, smallest_gap
 from scadgen.solid.mesh import solid_faults
 from scadgen.solid.pose import Pose

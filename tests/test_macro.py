@@ -10,7 +10,7 @@ from kits import bounds, inside, kit, random_inside, tee, tiled
 from python38 import newer
 
 from scadgen.emit.macro import macro
-from scadgen.solid.affine import PARAMETERS
+from scadgen.kit.live import PARAMETERS
 from scadgen.solid.mesh import volume
 
 FREECAD = {"FreeCAD", "FreeCADGui", "Part"}

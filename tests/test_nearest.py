@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.nearest import nearest_points
 from scadgen.joint.recede import recede
+from scadgen.joint.spokes import Spokes
 from scadgen.joint.weave import any_joint
 
 
@@ -69,7 +70,7 @@ def test_rows_that_nearly_depend_limit_a_point_once_each():
 
 def test_walls_draw_back_by_a_whole_unit_at_every_corner():
     turns = np.radians([0.0, 70.0, 200.0]).tolist()
-    made = make_joint(turns, any_joint(turns[1]), DETAILS["standard"])
+    made = make_joint(Spokes.flat(turns), any_joint(turns[1]), DETAILS["standard"])
     pieces = [(surface, ()) for surface in made.connectors]
     for (surface, _), displacement in zip(pieces, recede(pieces), strict=True):
         corners = surface.points[surface.walls]

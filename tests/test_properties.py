@@ -8,9 +8,9 @@ from kits import grid, kit
 from scadgen.errors import InvariantError, ScadgenError
 from scadgen.joint.weave import Weave
 from scadgen.kit.build import build
+from scadgen.kit.live import PARAMETERS
 from scadgen.kit.ranges import check_values
 from scadgen.kit.store import dumps, loads
-from scadgen.solid.affine import PARAMETERS
 from scadgen.solid.mesh import solid_faults
 
 #: Weaves around those that work, and anything else: `Weave` refuses what is out of its limits.

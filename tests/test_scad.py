@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
-from stub_kit import as_part, loft, stub_kit, with_joint
+from stub_kit import stub_kit, with_joint
 
 from scadgen.emit.picture import COLOURS
 from scadgen.emit.scad import parameter_sets, scad
@@ -232,11 +232,8 @@ def shell_boxes(points, triangles):
     return np.array([[p.min(axis=0), p.max(axis=0)] for p in shells])
 
 
-@pytest.mark.parametrize("chamfer", [0.6, None])
-def test_coupon_by_hand(chamfer, tmp_path):
+def test_coupon_by_hand(tmp_path):
     kit = stub_kit()
-    if chamfer is None:
-        kit = without_chamfer(kit)
     (tmp_path / "kit.scad").write_text(scad(kit), encoding="ascii")
     settings = {"coupon_first": 0.1, "coupon_step": 0.1, "coupon_count": 3}
     draw(tmp_path / "kit.scad", tmp_path / "c.stl", part="coupon", **settings)
@@ -246,22 +243,8 @@ def test_coupon_by_hand(chamfer, tmp_path):
     notches = 6 * (0.6 * cell / 4) * 1.2 / 2
     block = (3 * cell * depth - 4.2**2 - 4.4**2 - 4.6**2 - notches) * 7.5
     # A stick of 2 * 7.5 + 4; its last 0.6 narrows to 2.8: a frustum.
-    tip = chamfer or 0
-    stick = 16 * (19 - tip) + tip / 3 * (16 + 4 * 2.8 + 2.8**2)
+    stick = 16 * (19 - 0.6) + 0.6 / 3 * (16 + 4 * 2.8 + 2.8**2)
     assert check_stl(tmp_path / "c.stl") == pytest.approx(block + stick, rel=1e-6)
-
-
-def without_chamfer(kit):
-    bare = {
-        n: as_part(p, loft(n, [({}, {"side": 0.5}, {}), ({"side": 1}, {"side": 0.5}, {})]))
-        for n, p in kit.parts.items()
-    }
-    return replace(
-        kit,
-        parts=bare,
-        values={n: v for n, v in kit.values.items() if n != "peg_chamfer"},
-        ranges=tuple(r for r in kit.ranges if r.parameter != "peg_chamfer"),
-    )
 
 
 def test_use_draws_nothing_and_gives_modules_and_functions(kit, file, tmp_path):

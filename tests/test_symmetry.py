@@ -11,6 +11,7 @@ from kits import drawn, joint, regular
 from scadgen.errors import InputError
 from scadgen.frame.graph import make_frame
 from scadgen.joint.joint import DETAILS, make_joint
+from scadgen.joint.spokes import Spokes
 from scadgen.joint.surface import Surface, half_turn
 from scadgen.joint.symmetry import Symmetry, lopsided
 from scadgen.joint.weave import any_joint
@@ -70,7 +71,7 @@ def test_surfaces_are_alike_by_their_shape_alone():
     moved[17] += 1e-3
     assert whole.match(Surface(moved, whole.walls, whole.outlines)) is None
     assert whole.match(Surface(whole.points, whole.walls[:, ::-1], whole.outlines)) is None
-    bent = make_joint([0.0, 2.0, 4.0], any_joint(2.0), DETAILS["draft"], keys=[0])
+    bent = make_joint(Spokes.flat([0.0, 2.0, 4.0]), any_joint(2.0), DETAILS["draft"], keys=[0])
     assert bent.connectors[0].match(bent.connectors[1]) is None
     mirror = Surface(whole.points * [1, -1, 1], whole.walls[:, ::-1], whole.outlines)
     assert whole.match(mirror) is None
@@ -105,6 +106,6 @@ def test_what_is_alike_by_angles_and_keys_is_one_part_however_it_is_rounded(star
 
 
 def test_a_regular_joint_is_one_connector_and_one_half():
-    made = make_joint(regular(3), any_joint(TURN / 3), DETAILS["draft"], keys=[0])
+    made = make_joint(Spokes.flat(regular(3)), any_joint(TURN / 3), DETAILS["draft"], keys=[0])
     assert made.alike == ((0, False), (1, False), (1, True))
     assert made.halves[0][0].match(half_turn(made.halves[0][1])) is not None

@@ -9,6 +9,7 @@ from scipy.spatial import cKDTree
 
 from scadgen.joint.joint import DETAILS, check_footprint, make_joint, site_curves
 from scadgen.joint.lattice import make_lattice
+from scadgen.joint.spokes import Spokes
 from scadgen.joint.territory import arm, belongs, share
 from scadgen.joint.weave import Weave
 
@@ -47,9 +48,9 @@ def test_belongs_agrees_with_dense_sampling(low, size, margin, frame):
 @pytest.mark.parametrize("frame", ["hexagonal", "square"])
 def test_every_tube_face_is_proven_and_sampled_to_be_its_connectors(frame):
     made = joint(frame)
-    start = made.lattice.tube_start
+    start = made.lattice.domain.flats.distance[0]
     face = np.stack(np.meshgrid([start], *[np.linspace(-0.5, 0.5, 41)] * 2), axis=-1).reshape(-1, 3)
-    for edge, angle in enumerate(made.edges):
+    for edge, angle in enumerate(made.spokes.azimuths):
         check_footprint(made.lattice, made.curves, edge)
         c, s = np.cos(angle), np.sin(angle)
         turned = face @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
@@ -59,12 +60,14 @@ def test_every_tube_face_is_proven_and_sampled_to_be_its_connectors(frame):
 def test_a_weave_that_loses_the_footprint_is_refused_with_the_share():
     weave = Weave(1.809, 0.98, 0.093, 0.674, 1.018, "greedy")
     with pytest.raises(Exception, match=r"weave greedy: only \d+\.\d% of a tube's face") as said:
-        make_joint(regular(4), weave, DETAILS["draft"])
+        make_joint(Spokes.flat(regular(4)), weave, DETAILS["draft"])
     told = float(str(said.value).split("only ")[1].split("%")[0]) / 100
-    lattice = make_lattice(regular(4), weave.ring_ratio, 5)
-    curves = site_curves(lattice.edges, weave, 60)
+    lattice = make_lattice(Spokes.flat(regular(4)), weave.ring_ratio, 5)
+    curves = site_curves(lattice.domain.spokes, weave, 60)
     grid = np.linspace(-0.5, 0.5, 201)
-    face = np.stack(np.meshgrid([lattice.tube_start], grid, grid), axis=-1).reshape(-1, 3)
+    face = np.stack(np.meshgrid([lattice.domain.flats.distance[0]], grid, grid), axis=-1).reshape(
+        -1, 3
+    )
     assert told == pytest.approx((sampled_leads(curves, 0, face) > 0).mean(), abs=0.02)
     assert told < 0.5
 
@@ -73,7 +76,7 @@ def test_share_by_hand():
     curves = curves_of("square")
     points = np.array([[1.5, 0, 0], [-1.5, 0, 0], [0, 1.5, 0], [2.0, 0, 0]])
     assert share(curves, 0, points) == 0.5
-    assert share(curves, 1, points) == 0.5
+    assert share(curves, 1, points @ curves[1].turn) == 0.5
 
 
 def test_a_box_with_a_wall_right_in_its_middle_is_foreign():
@@ -84,8 +87,8 @@ def test_a_box_with_a_wall_right_in_its_middle_is_foreign():
 
 def test_arms_of_straight_connectors_end_in_the_middle_of_the_gap():
     weave = Weave(1.5, 0.3, 0.0, 0.3, 1.0)
-    lattice = make_lattice(regular(4), weave.ring_ratio, 9)
-    curves = site_curves(lattice.edges, weave, 60)
+    lattice = make_lattice(Spokes.flat(regular(4)), weave.ring_ratio, 9)
+    curves = site_curves(lattice.domain.spokes, weave, 60)
     thickness = arm(lattice, curves, 0, np.full(4, np.pi / 4))
     middle = lattice.planes[lattice.edge_planes[0] : lattice.edge_planes[1]]
     before = middle[middle < np.pi / 4][-1]

@@ -21,6 +21,7 @@ from scadgen.interlock.keys import alone
 from scadgen.interlock.program import farthest
 from scadgen.interlock.verdict import Certificate, Motion, verdict
 from scadgen.joint.joint import DETAILS, make_joint
+from scadgen.joint.spokes import Spokes
 from scadgen.joint.weave import Weave
 from scadgen.kit.build import build
 from scadgen.solid.gap import overlap_volume
@@ -257,9 +258,9 @@ def joint_of(frame, **changes):
 
 
 def whole_connectors(weave, count, detail):
-    made = make_joint(regular(count), weave, detail)
+    made = make_joint(Spokes.flat(regular(count)), weave, detail)
     found = []
-    for angle, surface in zip(made.edges, made.connectors, strict=True):
+    for angle, surface in zip(made.spokes.azimuths, made.connectors, strict=True):
         points, triangles = mesh(surface)
         c, s = math.cos(angle), math.sin(angle)
         found.append((points @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]), triangles))

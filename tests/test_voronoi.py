@@ -41,7 +41,7 @@ class Sampled:
         }
         places = diagram.vertices[sorted(used)]
         radius = np.hypot(places[:, 0], places[:, 1])
-        ring = lattice.ring_ratio
+        ring = lattice.domain.ring_ratio
         inside = (np.abs(places[:, 2]) < 0.5) & (radius > ring - 0.4) & (radius < ring + 0.4)
         return places[inside]
 
@@ -111,7 +111,7 @@ def test_labels_agree_away_from_walls(frame):
     sampled = Sampled(made.curves, 480)
     rng = np.random.default_rng(7)
     angle, radius, height = rng.random((3, 5000))
-    radius = made.lattice.ring_ratio - 0.5 + radius
+    radius = made.lattice.domain.ring_ratio - 0.5 + radius
     points = np.column_stack([radius * np.cos(7 * angle), radius * np.sin(7 * angle), height - 0.5])
     ours = np.stack([c.distance(points)[0] for c in made.curves]).argmin(axis=0)
     away = sampled.gaps(points) > 1e-3

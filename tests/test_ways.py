@@ -27,6 +27,7 @@ from scadgen.interlock.path import Path, narrowest, replay
 from scadgen.interlock.play import loosest
 from scadgen.interlock.verdict import Certificate, Motion, verdict
 from scadgen.joint.joint import DETAILS, make_joint
+from scadgen.joint.spokes import Spokes
 from scadgen.joint.weave import BUILT_IN, Weave
 from scadgen.kit.build import build
 from scadgen.kit.model import Way
@@ -190,9 +191,9 @@ def test_what_is_no_way_out_is_not_proved():
 
 def pieces_of(shape):
     """Halves and whole connectors of a joint without clearance, where they stand, in sides."""
-    made = make_joint(regular(3), Weave(*shape), DETAILS["draft"])
+    made = make_joint(Spokes.flat(regular(3)), Weave(*shape), DETAILS["draft"])
     whole = []
-    for angle, surface in zip(made.edges, made.connectors, strict=True):
+    for angle, surface in zip(made.spokes.azimuths, made.connectors, strict=True):
         points, triangles = mesh(surface)
         c, s = math.cos(angle), math.sin(angle)
         whole.append((points @ np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]]), triangles))
@@ -239,7 +240,9 @@ def test_connectors_that_follow_the_ring_are_movable(shape):
 
 def largest(made):
     """Play of the worst tip of a joint's whole connectors, along the worst axis."""
-    tips = TIP * np.column_stack([np.cos(made.edges), np.sin(made.edges), 0 * made.edges])
+    tips = TIP * np.column_stack(
+        [np.cos(made.spokes.azimuths), np.sin(made.spokes.azimuths), 0 * made.spokes.azimuths]
+    )
     return loosest(make_assembly(*whole_contacts(made.lattice, made.curves), (0,)), tips)[0]
 
 
@@ -249,7 +252,7 @@ def largest(made):
 )
 def test_built_in_weaves_have_at_most_half_the_play_of_plausible_ones(count, plausible):
     ours, other = (
-        largest(make_joint(regular(count), weave, DETAILS["standard"]))
+        largest(make_joint(Spokes.flat(regular(count)), weave, DETAILS["standard"]))
         for weave in (BUILT_IN[f"{count}-fixed"], Weave(*plausible))
     )
     assert ours < other / 2

@@ -13,7 +13,7 @@ from scadgen.errors import InputError
 from scadgen.frame.graph import Frame
 from scadgen.frame.joints import least_gap, least_ring_ratio, tube_start
 from scadgen.frame.kinds import choose_kinds
-from scadgen.frame.planarity import more, where
+from scadgen.frame.planarity import more
 from scadgen.frame.sameness import Sameness, joint_name
 from scadgen.joint.weave import LIMITS, any_joint
 from scadgen.kit.room import Room, reaches, room
@@ -56,7 +56,7 @@ class Build:
     def unfit(self) -> tuple[str, ...]:
         """Kinds of joints that cannot be made, whatever the side, a line each."""
         return tuple(
-            f"joint {joint_name(kind)} at {self._place(kind)}: {reason}"
+            f"joint {joint_name(kind)}, {self._place(kind)}: {reason}"
             for kind, reason in enumerate(self.refused)
             if reason
         )
@@ -77,12 +77,25 @@ class Build:
         for kind in np.argsort(-worst, kind="stable")[: np.count_nonzero(worst)]:
             edges = self.same.edges[kind].edges
             at = edges[missing[edges].argmax()]
-            first, second = (where(self.frame.vertices[v]) for v in self.frame.edges[at])
             yield (
-                f"an edge of kind {kind + 1}, {self.frame.lengths[at]:.4g} mm long, is "
-                f"{worst[kind]:.4g} mm too short for its two joints, from {first} to {second}"
-                f"{more(int(np.count_nonzero(missing[edges])))}"
+                f"{self.frame.called_edge(at)}, of kind {kind + 1} and "
+                f"{self.frame.lengths[at]:.4g} mm long, is {worst[kind]:.4g} mm too short for its "
+                f"two joints{more(int(np.count_nonzero(missing[edges])))}"
             )
+
+    def places(self, side: float | None) -> Floats:
+        """Where something is in the way: ``(k, 2) float``, in mm.
+
+        Parameters
+        ----------
+        side
+            Side of the tubes, in mm, if it is to be built.
+        """
+        points = self.frame.vertices
+        narrow = [self._narrowest(kind) for kind, reason in enumerate(self.refused) if reason]
+        short = np.flatnonzero(self.missing(side) if side else [])
+        middles = points[self.frame.edges[short]].mean(axis=1)
+        return np.concatenate([points[narrow].reshape(-1, 2), middles.reshape(-1, 2)])
 
     def too_near(self, side: float) -> Iterator[str]:
         """The joint that is nearest to what passes by, if it is too near at this side."""
@@ -92,9 +105,12 @@ class Build:
 
     def _place(self, kind: int) -> str:
         """Where the narrowest joint of a kind stands."""
-        vertices = self.same.joints[kind].vertices
-        narrowest = min(vertices, key=lambda v: self.frame.gaps(v).min())
-        return where(self.frame.vertices[narrowest]) + more(len(vertices))
+        called = self.frame.called_vertex(self._narrowest(kind))
+        return called + more(len(self.same.joints[kind].vertices))
+
+    def _narrowest(self, kind: int) -> int:
+        vertices = self.same.joints[kind].vertices.tolist()
+        return int(min(vertices, key=lambda v: float(self.frame.gaps(v).min())))
 
 
 def rings(

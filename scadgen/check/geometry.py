@@ -15,13 +15,14 @@ from scadgen.frame.placement import Placement
 from scadgen.joint.curve import SiteCurve
 from scadgen.joint.joint import (
     DETAILS,
+    Decomposition,
     Detail,
     check_footprint,
     fitted,
     make_joint,
 )
-from scadgen.joint.joint import Joint as MadeJoint
 from scadgen.joint.lattice import Lattice
+from scadgen.joint.spokes import Spokes
 from scadgen.joint.weave import Weave
 from scadgen.kit.build import Request, build
 from scadgen.kit.model import Joint, Kit
@@ -231,7 +232,7 @@ def sampling(kit: Kit, joint: Joint) -> Iterator[Result]:
     )
 
 
-def _off_wall(made: MadeJoint, edge: int) -> Floats:
+def _off_wall(made: Decomposition, edge: int) -> Floats:
     """Distance of a connector's walls' faces from the exact walls, at middles and sides'."""
     connector = made.connectors[edge]
     weights = np.array([[1, 1, 1], [1, 1, 0], [0, 1, 1], [1, 0, 1]]) / [[3], [2], [2], [2]]
@@ -249,14 +250,14 @@ def weave_of(joint: Joint) -> Weave:
     return Weave.from_dict(dict(joint.weave), str(joint.weave["name"]))
 
 
-def joint_of(joint: Joint, detail: Detail) -> MadeJoint:
+def joint_of(joint: Joint, detail: Detail) -> Decomposition:
     """A kind of joint made anew at some detail, on its own lattice."""
     extra = int(joint.figures["lattice_extra"])
-    return make_joint(joint.directions, weave_of(joint), detail, extra, joint.keys)
+    return make_joint(Spokes.flat(joint.directions), weave_of(joint), detail, extra, joint.keys)
 
 
 def lattice_of(joint: Joint, detail: Detail) -> tuple[Lattice, tuple[SiteCurve, ...]]:
     """Its lattice, with all corners, and its site curves alone."""
     weave, extra = weave_of(joint), int(joint.figures["lattice_extra"])
-    lattice, curves, _ = fitted(joint.directions, weave, detail, extra, joint.keys)
+    lattice, curves, _ = fitted(Spokes.flat(joint.directions), weave, detail, extra, joint.keys)
     return lattice, curves

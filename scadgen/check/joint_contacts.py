@@ -14,7 +14,7 @@ from scadgen.interlock.contacts import Contacts, Mesh
 from scadgen.joint.curve import SiteCurve
 from scadgen.joint.lattice import Lattice
 from scadgen.joint.place import beside_walls, place
-from scadgen.joint.walls import Key
+from scadgen.joint.walls import Feature
 from scadgen.solid.affine import Ints
 
 __all__ = ["whole_contacts"]
@@ -62,9 +62,9 @@ def whole_contacts(lattice: Lattice, curves: Sequence[SiteCurve]) -> tuple[list[
     return meshes, contacts
 
 
-def _crossed(labels: Ints) -> tuple[list[Key], Ints]:
+def _crossed(labels: Ints) -> tuple[list[Feature], Ints]:
     """The lattice's edges between two labels, and these, the lower first."""
-    keys: list[Key] = []
+    keys: list[Feature] = []
     pairs = []
     for axis in range(3):
         after = np.roll(labels, -1, axis)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from scadgen.cli.words import meant
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -55,6 +56,7 @@ def held_parts(parts: Sequence[Part], hold: tuple[str, ...]) -> list[int]:
         found = _named(parts, name.strip())
         if not found:
             msg = f"--hold {name.strip()}: must be one of {', '.join(names)}, a file, or a pattern"
+            msg += meant(name.strip(), names)
             raise InputError(msg)
         chosen.update(found)
     if len(chosen) == len(names):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shlex
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from scadgen.cli.console import progress, table, timeout_option
+from scadgen.cli.console import force_option, kit_files, progress, table, timeout_option
 from scadgen.errors import InputError, ToolError
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ _AT_ONCE = 2
 )
 @click.option("--keep", is_flag=True, help="Put it into the kit: kit.json, parts.csv, README.md.")
 @click.option("-o", "--output", type=_FILE, metavar="FILE", help="Write it as CSV.")
+@force_option
 @click.option("--json", "as_json", is_flag=True, help="Say it as JSON.")
 @timeout_option
 def bill(
@@ -44,6 +46,7 @@ def bill(
     profile: Path | None,
     keep: bool,  # noqa: FBT001  click passes flags so
     output: Path | None,
+    force: bool,  # noqa: FBT001
     as_json: bool,  # noqa: FBT001
     timeout: float,
 ) -> None:
@@ -58,15 +61,15 @@ def bill(
     scadgen bill out/hexagonal --material PETG --profile mine.ini --keep
     """  # noqa: D301  click wants the character
     from scadgen.emit.folder import check_bill, update_bill
-    from scadgen.emit.mesh import check_writable, write_atomic
     from scadgen.emit.parts_csv import parts_csv
+    from scadgen.emit.target import target
     from scadgen.kit.bill import as_json as bill_of
     from scadgen.kit.bill import check_material
     from scadgen.kit.store import load
     from scadgen.tools import slicer
 
-    if output is not None:
-        check_writable(output)
+    read = [*kit_files(folder), *([profile] if profile else [])]
+    place_of_bill = target(output, read, force=force) if output else None
     if profile is not None and not profile.is_file():
         msg = f"profile {str(profile)!r}: no such file; PrusaSlicer exports one (File > Export)"
         raise InputError(msg)
@@ -83,8 +86,8 @@ def bill(
         raise ToolError(msg)
     if keep:
         update_bill(kit, place)
-    if output is not None:
-        write_atomic(output, parts_csv(kit).encode())
+    if place_of_bill is not None:
+        place_of_bill.put(parts_csv(kit).encode(), "csv")
     if as_json:
         click.echo(json.dumps(bill_of(kit), indent=1))
         return
@@ -181,12 +184,8 @@ def _sliced_words(line: Line, density: float) -> tuple[str, str, str]:
 
 def _remade(command: str, material: str) -> str:
     """The command that makes a kit again, of another material."""
-    try:
-        words = shlex.split(command)
-    except ValueError:  # not one of ours
+    if not command:
         return command
-    if "--material" in words[:-1]:
-        words[words.index("--material") + 1] = material
-    elif words:
-        words += ["--material", material]
-    return shlex.join(words)
+    option = f"--material {shlex.quote(material)}"
+    given = re.compile(r"(?<= )--material \w+(?= |$)")
+    return given.sub(option, command) if given.search(command) else f"{command} {option}"

@@ -9,11 +9,21 @@ import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from pathlib import Path
 from typing import Any
 
 import click
 
-__all__ = ["Bar", "counted", "progress", "status", "table", "timeout_option"]
+__all__ = [
+    "Bar",
+    "counted",
+    "force_option",
+    "kit_files",
+    "progress",
+    "status",
+    "table",
+    "timeout_option",
+]
 
 #: Seconds from one line of a log to the next, and to the first.
 _EVERY = 5.0
@@ -38,6 +48,22 @@ def timeout_option(command: Callable[..., Any]) -> Callable[..., Any]:
         help="Limit what OpenSCAD or PrusaSlicer takes for one part.",
     )
     return option(command)
+
+
+def force_option(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Give a command the option to write over files that it would not write over otherwise."""
+    option = click.option(
+        "--force",
+        is_flag=True,
+        help="Write over any file.  Without it, neither what was read nor a file that scadgen "
+        "did not make, or that was changed since, is written over.",
+    )
+    return option(command)
+
+
+def kit_files(kit: Path) -> list[Path]:
+    """What a command reads of a kit that is named by its folder or by its file."""
+    return [kit / "kit.json" if kit.is_dir() else kit]
 
 
 @contextmanager

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from pathlib import Path
 
 import click
 
+from scadgen.cli.console import force_option, kit_files
+from scadgen.cli.words import length, meant
 from scadgen.errors import InputError
 from scadgen.kit.model import Kit
 from scadgen.solid.affine import Range
@@ -27,27 +28,33 @@ __all__ = ["export", "settings"]
 @click.option(
     "-o", "--output", required=True, type=click.Path(path_type=Path), help="File to write."
 )
+@force_option
 def export(
-    folder: Path, part: str, kind: str | None, changes: tuple[str, ...], output: Path
+    folder: Path,
+    part: str,
+    kind: str | None,
+    changes: tuple[str, ...],
+    output: Path,
+    force: bool,  # noqa: FBT001  click passes flags so
 ) -> None:
     """Write one part of a kit as STL, 3MF, OBJ or GLB.
 
     \b
     scadgen export out/hexagonal --part half --set clearance=0.3 -o half.stl
     """  # noqa: D301  click wants the character
-    from scadgen.emit.mesh import mesh_bytes, write_atomic
+    from scadgen.emit.mesh import mesh_bytes
+    from scadgen.emit.target import target
     from scadgen.kit.store import load
 
     kind = _kind(kind, output)
     kit = load(folder)
     if part not in kit.parts:
-        near = get_close_matches(part, kit.parts, n=1)
-        hint = f" (did you mean {near[0]}?)" if near else ""
-        msg = f"part = {part!r}: must be one of {', '.join(kit.parts)}{hint}"
+        msg = f"part = {part!r}: must be one of {', '.join(kit.parts)}{meant(part, kit.parts)}"
         raise InputError(msg)
+    place = target(output, kit_files(folder), force=force)
     solid = kit.parts[part]
     points = solid.points(settings(kit, changes))
-    write_atomic(output, mesh_bytes(points, solid.triangles, kind))
+    place.put(mesh_bytes(points, solid.triangles, kind, part), kind)
     click.echo(f"{click.format_filename(output)}: {part}, {len(solid.triangles)} triangles")
 
 
@@ -105,12 +112,15 @@ def settings(
             )
             raise InputError(msg)
         if not equals or name not in values:
-            msg = f"--set {change}: must be NAME=MM with NAME one of {', '.join(values)}"
+            msg = (
+                f"--set {change}: must be NAME=MM with NAME one of {', '.join(values)}"
+                f"{meant(name, values)}"
+            )
             raise InputError(msg)
         try:
-            values[name] = float(text)
-        except ValueError as error:
-            msg = f"--set {change}: {text!r} is not a number of mm"
-            raise InputError(msg) from error
+            values[name] = length(text)
+        except InputError as error:
+            msg = f"--set {change}: {error}"
+            raise InputError(msg) from None
     check_values([*kit.ranges, *others], values)
     return values

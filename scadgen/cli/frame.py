@@ -9,16 +9,22 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from scadgen.cli.console import status, table
+from scadgen.cli.console import force_option, status, table
+from scadgen.cli.curves import share_of_room
 from scadgen.cli.frame_report import SIDES, report, show
 from scadgen.cli.frame_source import has_cells, load_frame, option, source_options
+from scadgen.cli.words import LENGTH
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
+    from scadgen.emit.target import Target
     from scadgen.frame.graph import Frame
     from scadgen.frame.sameness import Sameness, Snapped
 
 __all__ = ["frame"]
+
+#: The side of a kit's tubes where none is given, in mm.
+_USUAL_SIDE = 10.0
 
 _FILE = click.Path(path_type=Path)
 
@@ -26,7 +32,7 @@ _FILE = click.Path(path_type=Path)
 @click.command(short_help="Look at a frame, named or drawn.")
 @click.argument("name", metavar="FRAME", required=False)
 @click.option("--list", "listing", is_flag=True, help="List the named frames, with their options.")
-@click.option("--side", type=float, metavar="MM", help="Say whether it can be built at this side.")
+@click.option("--side", type=LENGTH, metavar="MM", help="Say whether it can be built at this side.")
 @click.option(
     "--ring-ratio",
     type=float,
@@ -37,11 +43,17 @@ _FILE = click.Path(path_type=Path)
     "--snap-angle", type=float, metavar="DEG", help="Turn edges by this much for fewer kinds."
 )
 @click.option(
-    "--snap-length", type=float, metavar="MM", help="Change lengths by this much for fewer kinds."
+    "--snap-length", type=LENGTH, metavar="MM", help="Change lengths by this much for fewer kinds."
 )
 @source_options()
 @click.option("-o", "--output", type=_FILE, help="Write the frame as JSON.")
-@click.option("--picture", type=_FILE, metavar="FILE", help="Draw it as SVG, in colours by kind.")
+@click.option(
+    "--picture",
+    type=_FILE,
+    metavar="FILE",
+    help="Draw it as SVG, in colours by kind, with rings where it was repaired or cannot be built.",
+)
+@force_option
 @click.option("--json", "as_json", is_flag=True, help="Say it as JSON.")
 def frame(  # noqa: PLR0913, PLR0917  one argument an option
     name: str | None,
@@ -52,6 +64,7 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     snap_length: float | None,
     output: Path | None,
     picture: Path | None,
+    force: bool,  # noqa: FBT001
     as_json: bool,  # noqa: FBT001
     **options: Any,  # noqa: ANN401  of families and files
 ) -> int:
@@ -76,11 +89,10 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     if name is None:
         msg = "FRAME: is missing; name a file, or one of those that scadgen frame --list shows"
         raise InputError(msg)
-    _check_files(output, picture)
+    targets = _targets(Path(name), output, picture, force=force)
     _check_range("side", side, "mm", SIDES)
     from scadgen.check.frame import rings
     from scadgen.emit.frame_picture import frame_svg
-    from scadgen.emit.mesh import write_atomic
     from scadgen.frame.catalogue import ALIASES, NAMES
     from scadgen.frame.sameness import Snapped
     from scadgen.joint.weave import LIMITS, built_in
@@ -91,17 +103,19 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     family = NAMES.get(ALIASES.get(name, name))
     regular = family is not None and family.regular and has_cells(name, given)
     with status("looking at the frame"):
-        read = load_frame(name, options)
+        wanted = _USUAL_SIDE if side is None else side
+        read = load_frame(name, options, lambda drawn: share_of_room(drawn, wanted))
         if regular and ring_ratio is None:
             ring_ratio = built_in(int(read.frame.degree.max()), "fixed").ring_ratio
         kinds = _kinds(read.frame, snap_angle, snap_length)
         snapped, same = (kinds, kinds.same) if isinstance(kinds, Snapped) else (None, kinds)
         build = rings(read.frame, same, ring_ratio, fixed=regular)
         said = report(build, read.notes, snapped, side)
-        if output:
-            write_atomic(output, dumps(read.frame).encode())
-        if picture:
-            write_atomic(picture, frame_svg(read.frame, same).encode())
+        if "json" in targets:
+            targets["json"].put(dumps(read.frame).encode(), "json")
+        if "svg" in targets:
+            drawn = frame_svg(read.frame, same, read.places, build.places(side))
+            targets["svg"].put(drawn.encode(), "svg")
     if as_json:
         click.echo(json.dumps(said, indent=1))
     else:
@@ -126,9 +140,7 @@ def _kinds(frame: Frame, angle: float | None, length: float | None) -> Sameness 
     if length is not None and not 0 < length < math.inf:
         msg = f"snap-length = {length:g} mm: must be a positive number of mm"
         raise InputError(msg)
-    # Edges very near each other are told as such, not as a tolerance that nobody gave.
-    usual = min(known["angle_tolerance"].default, most / 2)
-    turn = usual if angle is None else math.radians(angle)
+    turn = None if angle is None else math.radians(angle)
     within = known["length_tolerance"].default if length is None else length
     if angle is None and length is None:
         return sameness(frame, turn, within)
@@ -141,17 +153,21 @@ def _check_range(what: str, value: float | None, unit: str, limits: tuple[float,
         raise InputError(msg)
 
 
-def _check_files(output: Path | None, picture: Path | None) -> None:
-    """Refuse, before any work, what could not be written or not be read again."""
-    from scadgen.emit.mesh import check_writable
+def _targets(
+    source: Path, output: Path | None, picture: Path | None, *, force: bool
+) -> dict[str, Target]:
+    """Where to write, by kind; refused before any work if it may not be, or not be read again."""
+    from scadgen.emit.target import target
 
-    for path, ending in ((output, ".json"), (picture, ".svg")):
+    targets = {}
+    for path, kind in ((output, "json"), (picture, "svg")):
         if path is None:
             continue
-        check_writable(path)
-        if path.suffix.lower() != ending:
-            msg = f"{str(path)!r}: must end in {ending}"
+        targets[kind] = target(path, [source], force=force)
+        if path.suffix.lower() != f".{kind}":
+            msg = f"{str(path)!r}: must end in .{kind}"
             raise InputError(msg)
+    return targets
 
 
 def _list(*, as_json: bool) -> None:

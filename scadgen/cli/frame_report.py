@@ -97,7 +97,7 @@ def _joints(build: Build, side: float | None) -> list[dict[str, Any]]:
             "least_ring_ratio": _rounded(least),
             "ring_ratio": _rounded(ring),
             "across": side and _rounded((2 * ring + 1) * side),
-            "vertices": joint.vertices.tolist(),
+            "vertices": build.frame.called.numbers("vertices", joint.vertices),
         }
         for kind, (joint, least, ring) in enumerate(kinds)
     ]
@@ -119,7 +119,7 @@ def _edges(build: Build, side: float | None) -> list[dict[str, Any]]:
                 )
             ],
             "missing": _rounded(missing[edge.edges].max()),
-            "edges": edge.edges.tolist(),
+            "edges": build.frame.called.numbers("edges", edge.edges),
         }
         for kind, edge in enumerate(build.same.edges, 1)
     ]

@@ -5,26 +5,28 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import replace
-from difflib import get_close_matches
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from scadgen.cli.curves import roomiest
+from scadgen.cli.words import LENGTH, length, meant
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
+    from scadgen.frame.graph import Frame
     from scadgen.readers.reading import Read
 
 __all__ = ["has_cells", "load_frame", "option", "source_options"]
 
 #: Options of families: type, metavar, what it means; as in the catalogue.
-_FAMILY: dict[str, tuple[type, str, str]] = {
-    "edge_length": (float, "MM", "length of the shortest edges, in mm"),
+_FAMILY: dict[str, tuple[type | click.ParamType[float], str, str]] = {
+    "edge_length": (LENGTH, "MM", "length of the shortest edges, in mm"),
     "rows": (int, "N", "cells up"),
     "columns": (int, "N", "cells across"),
     "radius": (
-        float,
+        LENGTH,
         "MM",
         "radius of a circle to fill instead of rows and columns, in mm, with whole tiles",
     ),
@@ -33,27 +35,36 @@ _FAMILY: dict[str, tuple[type, str, str]] = {
         '"X,Y ..."',
         "corners of a polygon to fill instead of rows and columns, in mm, with whole tiles",
     ),
-    "width": (float, "MM", "width of a rectangle or ladder, in mm"),
-    "height": (float, "MM", "height of a rectangle, in mm"),
+    "width": (LENGTH, "MM", "width of a rectangle or ladder, in mm"),
+    "height": (LENGTH, "MM", "height of a rectangle, in mm"),
     "angle": (float, "DEG", "angle of a rhomb at its lower left, in degrees"),
     "sides": (int, "N", "sides of the polygon"),
     "bays": (int, "N", "rectangles in a row"),
-    "bay_length": (float, "MM", "distance of the rungs, in mm"),
+    "bay_length": (LENGTH, "MM", "distance of the rungs, in mm"),
     "triangles": (int, "N", "triangles in a row"),
 }
 
 _DRAWINGS = (".dxf", ".svg")
 
 #: Options of files: type, metavar, what it means, and kinds of files if not all.
-_READING: dict[str, tuple[type, str | None, str, tuple[str, ...] | None]] = {
-    "scale": (float, "MM", "millimetres per unit.  [default: what the file says]", None),
+_READING: dict[
+    str, tuple[type | click.ParamType[float], str | None, str, tuple[str, ...] | None]
+] = {
+    "scale": (LENGTH, "MM", "millimetres per unit.  [default: what the file says]", None),
+    "unit": (str, "NAME", "the unit instead, by its name: mm, cm, m, inch, foot.", None),
+    "centre": (bool, None, "move the middle of the frame to 0.", None),
     "tolerance": (
-        float,
+        LENGTH,
         "MM",
         "ends nearer than this are one; a mesh may be this far from plane.  [default: 0.01]",
         (*_DRAWINGS, ".obj", ".off"),
     ),
-    "flatten": (float, "MM", "segments are this near to their curve.  [default: 0.05]", _DRAWINGS),
+    "flatten": (
+        LENGTH,
+        "MM",
+        "segments are this near to their curve.  [default: 0.05, or as joints have room for]",
+        _DRAWINGS,
+    ),
     "repair": (
         bool,
         None,
@@ -61,9 +72,14 @@ _READING: dict[str, tuple[type, str | None, str, tuple[str, ...] | None]] = {
         (".json", ".obj", ".off"),
     ),
     "no_split": (bool, None, "refuse segments that cross instead of splitting them.", _DRAWINGS),
-    "skip_unknown": (bool, None, "leave out what cannot be part of a frame.", (*_DRAWINGS, ".obj")),
+    "strict": (
+        bool,
+        None,
+        "refuse what cannot be part of a frame, instead of leaving it out.",
+        (*_DRAWINGS, ".obj"),
+    ),
     "components": (bool, None, "allow several parts that are not connected.", None),
-    "shortest": (float, "MM", "refuse edges shorter than this.", None),
+    "shortest": (LENGTH, "MM", "refuse edges shorter than this.", None),
     "most": (int, "N", "allow this many vertices, segments or edges.  [default: 100000]", None),
 }
 
@@ -86,7 +102,7 @@ def source_options(
     def add(function: Callable[..., Any]) -> Callable[..., Any]:
         function = click.option(
             "--snap",
-            type=float,
+            type=LENGTH,
             metavar="MM",
             help="Move vertices by up to this, so that lengths and angles that are nearly the same "
             "are the same.",
@@ -123,7 +139,9 @@ def has_cells(name: str, options: Iterable[str]) -> bool:
     return family is not None and "rows" in family.options and {*options} <= shaped
 
 
-def load_frame(name: str, options: Mapping[str, Any]) -> Read:
+def load_frame(
+    name: str, options: Mapping[str, Any], room: Callable[[Frame], float] | None = None
+) -> Read:
     """Make or read a frame.
 
     Parameters
@@ -132,6 +150,9 @@ def load_frame(name: str, options: Mapping[str, Any]) -> Read:
         What was named: a frame or a file.
     options
         What `source_options` gave.
+    room
+        The share of the room that a frame's joints have, at 1 enough: curves of drawings are as
+        fine as that allows, unless it is said how fine.
 
     Raises
     ------
@@ -141,21 +162,22 @@ def load_frame(name: str, options: Mapping[str, Any]) -> Read:
     """
     given = {k: v for k, v in options.items() if v is not None and v is not False}
     within = given.pop("snap", None)
-    found = _load(name, given)
+    found = _load(name, given, room)
     if within is None:
         return found
     from scadgen.frame.snapping import move_vertices
     from scadgen.readers.reading import Read
 
     moved = move_vertices(found.frame, within, given.get("shortest", 0.0))
-    return Read(moved.frame, (*found.notes, *moved.notes))
+    return Read(moved.frame, (*found.notes, *moved.notes), found.places)
 
 
-def _load(name: str, given: dict[str, Any]) -> Read:
+def _load(name: str, given: dict[str, Any], room: Callable[[Frame], float] | None) -> Read:
     """Make or read a frame as it is."""
     from scadgen.frame.catalogue import ALIASES, NAMES, named
     from scadgen.readers.read import READERS, read
     from scadgen.readers.reading import Read, Reading
+    from scadgen.readers.units import unit
 
     family = NAMES.get(ALIASES.get(name, name))
     if family is not None:
@@ -166,11 +188,9 @@ def _load(name: str, given: dict[str, Any]) -> Read:
     path = Path(name)
     kind = path.suffix.lower()
     if kind not in READERS:
-        near = get_close_matches(name, [*NAMES, *ALIASES], n=1)
-        meant = f", such as {near[0]}" if near else ""
         msg = (
-            f"frame {name!r}: must be a name that scadgen frame --list shows{meant}, or a file "
-            f"that ends in {', '.join(READERS)}"
+            f"frame {name!r}: must be a name that scadgen frame --list shows"
+            f"{meant(name, [*NAMES, *ALIASES])}, or a file that ends in {', '.join(READERS)}"
         )
         raise InputError(msg)
     taken = [
@@ -183,12 +203,23 @@ def _load(name: str, given: dict[str, Any]) -> Read:
             msg = f"frame {name}: {option(one)} needs --repair"
             raise InputError(msg)
     _check_options(name, given, taken)
+    if "unit" in given:
+        if "scale" in given:
+            msg = f"frame {name}: --scale and --unit: give one of them"
+            raise InputError(msg)
+        given["scale"] = unit(given.pop("unit"))
     if given.pop("no_split", False):
         given["split"] = False
-    found = read(path, Reading(**given))
+    how = Reading(**given)
+    found = read(path, how)
+    if room is not None and kind in _DRAWINGS and "flatten" not in given:
+        found = roomiest(
+            found, how.flatten, lambda within: read(path, replace(how, flatten=within)), room
+        )
     # What a file is called may not do as a frame's name in JSON.
-    plain = re.sub(r"[^\w. -]", "_", found.frame.name)[:100]
-    return Read(replace(found.frame, name=plain), found.notes)
+    called = found.frame.name.encode(errors="surrogateescape").decode(errors="replace")
+    plain = re.sub(r"[^\w. -]", "_", called)[:100]
+    return replace(found, frame=replace(found.frame, name=plain))
 
 
 def option(name: str) -> str:
@@ -199,8 +230,8 @@ def option(name: str) -> str:
 def _corners(text: str) -> list[list[float]]:
     """Corners of an outline, as they are typed."""
     try:
-        corners = [[float(number) for number in pair.split(",")] for pair in text.split()]
-    except ValueError:
+        corners = [[length(number) for number in pair.split(",")] for pair in text.split()]
+    except InputError:
         corners = []
     if len(corners) < 3 or {len(corner) for corner in corners} != {2}:
         msg = f'outline = {text!r}: must be 3 or more corners such as "0,0 300,0 150,200", in mm'

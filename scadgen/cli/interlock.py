@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from scadgen.cli.console import status
+from scadgen.cli.console import force_option, status
+from scadgen.cli.words import LENGTH
 from scadgen.errors import InputError, InvariantError
 
 if TYPE_CHECKING:
+    from scadgen.emit.target import Target
     from scadgen.interlock.contacts import Contacts, Mesh
     from scadgen.interlock.gaps import Gap
     from scadgen.interlock.taken import Apart
@@ -37,13 +39,13 @@ _SHUT = 1e-3
 )
 @click.option(
     "--tolerance",
-    type=float,
+    type=LENGTH,
     metavar="MM",
     help="Distance up to which faces touch.  [default: 1 % of the median part's diagonal]",
 )
 @click.option(
     "--interference",
-    type=float,
+    type=LENGTH,
     metavar="MM",
     help="How deep parts may be in each other and count as touching.  "
     "[default: 1 % of the tolerance]",
@@ -57,7 +59,8 @@ _SHUT = 1e-3
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
 @click.option("--gif", type=_FILE, help="Film the motion, or with --apart the taking apart.")
 @click.option("--png", type=_FILE, help="Draw the motion, or the parts at rest, into this file.")
-def interlock(
+@force_option
+def interlock(  # noqa: PLR0913, PLR0917  one argument an option
     files: tuple[Path, ...],
     hold: tuple[str, ...],
     tolerance: float | None,
@@ -66,6 +69,7 @@ def interlock(
     as_json: bool,  # noqa: FBT001  click passes flags so
     gif: Path | None,
     png: Path | None,
+    force: bool,  # noqa: FBT001
 ) -> int:
     """Say whether parts, placed as assembled, hold each other: STL, 3MF, OBJ, PLY or OFF.
 
@@ -98,7 +102,7 @@ def interlock(
     from scadgen.interlock.verdict import Motion
     from scadgen.tools.read_mesh import read_parts
 
-    _check_pictures(files, gif, png)
+    pictures = _pictures(files, gif, png, force=force)
     with status("reading") as say:
         parts = read_parts(files)
         names, meshes = [part.name for part in parts], [part.mesh for part in parts]
@@ -142,22 +146,26 @@ def interlock(
         click.echo(json.dumps(report, indent=1))
     else:
         print_report(names, meshes, report, motion, motions, defaulted=not hold)
-    _draw(meshes, motion, until, gif, png, apart if taking_apart else None)
+    _draw(meshes, motion, until, pictures, apart if taking_apart else None)
     good = apart.answer == "apart" if taking_apart else motion is None
     return 0 if good else 1
 
 
-def _check_pictures(files: tuple[Path, ...], gif: Path | None, png: Path | None) -> None:
-    """Refuse pictures that would not be what their names say, or in the way of a part."""
-    from scadgen.emit.mesh import check_writable
+def _pictures(
+    files: tuple[Path, ...], gif: Path | None, png: Path | None, *, force: bool
+) -> dict[str, Target]:
+    """Where to draw, by kind; refused before any work if it may not be."""
+    from scadgen.emit.target import target
 
-    for option, path, ending in (("--gif", gif, ".gif"), ("--png", png, ".png")):
+    pictures = {}
+    for kind, path in (("gif", gif), ("png", png)):
         if path is None:
             continue
-        if path.suffix.lower() != ending or path.resolve() in {file.resolve() for file in files}:
-            msg = f"{option} {str(path)!r}: must be a file of its own that ends in {ending}"
+        if path.suffix.lower() != f".{kind}":
+            msg = f"--{kind} {str(path)!r}: must be a file of its own that ends in .{kind}"
             raise InputError(msg)
-        check_writable(path)
+        pictures[kind] = target(path, files, force=force)
+    return pictures
 
 
 def _gaps(meshes: list[Mesh], contacts: Contacts, answer: Certificate, near: float) -> list[Gap]:
@@ -240,19 +248,18 @@ def _draw(
     meshes: list[Mesh],
     motion: Motion | None,
     until: float,
-    gif: Path | None,
-    png: Path | None,
+    pictures: dict[str, Target],
     apart: Apart | None,
 ) -> None:
     """Write the pictures that were asked for."""
-    from scadgen.emit.mesh import write_atomic
     from scadgen.emit.motion import apart_gif, motion_gif, motion_png
 
-    if png:
-        write_atomic(png, motion_png(meshes, motion, until=until))
+    if png := pictures.get("png"):
+        png.put(motion_png(meshes, motion, until=until), "png")
+    gif = pictures.get("gif")
     if gif and apart and apart.removals:
-        write_atomic(gif, apart_gif(meshes, apart.removals))
+        gif.put(apart_gif(meshes, apart.removals), "gif")
     elif gif and motion:
-        write_atomic(gif, motion_gif(meshes, motion, until=until))
+        gif.put(motion_gif(meshes, motion, until=until), "gif")
     elif gif:
-        click.echo(f"scadgen: nothing moves, {gif} is not written", err=True)
+        click.echo(f"scadgen: nothing moves, {gif.path} is not written", err=True)

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import json
 import shlex
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from scadgen.cli.console import Bar, counted, progress
+from scadgen.cli.console import Bar, counted, force_option, progress
 from scadgen.cli.frame_source import source_options
 from scadgen.cli.kit_request import kit_request
+from scadgen.cli.words import LENGTH
+from scadgen.errors import GeometryError, JointError
+from scadgen.kit.live import LIVE, PARAMETERS
 
 if TYPE_CHECKING:
     from scadgen.kit.build import Request
@@ -30,36 +34,14 @@ _PROOFS, _FILES = 12, 9
 
 
 #: What has no say in what is made.
-_NOT_MADE = ("frame", "output", "jobs", "dask", "no_cache", "as_json")
-
-#: The live parameters: option, what it sets, the words about its default.
-_LENGTHS = (
-    ("side", "side of the square tubes", "10"),
-    (
-        "edge_length",
-        "length of the shortest edges; a frame from a file grows or shrinks to it",
-        "6 sides, more for a wide ring; of a file what it says",
-    ),
-    ("clearance", "gap between mating faces", "0.2"),
-    ("peg_width", "width of the square pegs", "0.4 sides"),
-    ("peg_length", "length of the pegs", "0.6 sides; loose: as far as it must reach"),
-    ("peg_clearance", "gap around the pegs", "the clearance"),
-    ("peg_chamfer", "lead-in of the pegs' tips", "0.05 sides"),
-    ("bore", "width of a bore along all edges; 0 for solid ones", "0"),
-)
+_NOT_MADE = ("frame", "output", "jobs", "dask", "no_cache", "force", "as_json")
 
 
 def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are typed so
     """Add an option for each live parameter."""
-    for name, what, default in reversed(_LENGTHS):
-        option = f"--{name.replace('_', '-')}"
-        function = click.option(
-            option,
-            name,
-            type=float,
-            metavar="MM",
-            help=f"{what.capitalize()}.  [default: {default}]",
-        )(function)
+    for live in reversed(LIVE):
+        add = click.option(live.option, live.name, type=LENGTH, metavar="MM", help=live.help)
+        function = add(function)
     return function
 
 
@@ -125,8 +107,9 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
     help="Neither use nor keep the joints and proofs of other kits in SCADGEN_CACHE, by default "
     "~/.cache/scadgen.",
 )
+@force_option
 @click.option("--json", "as_json", is_flag=True, help="Say what was made as JSON.")
-def kit(
+def kit(  # noqa: PLR0913, PLR0917  one argument an option
     frame: str,
     output: Path | None,
     material: str,
@@ -134,6 +117,7 @@ def kit(
     jobs: int | None,
     dask: str | None,
     no_cache: bool,  # noqa: FBT001
+    force: bool,  # noqa: FBT001
     as_json: bool,  # noqa: FBT001
     **options: Any,  # noqa: ANN401  of the kit, its live parameters, and the frame
 ) -> None:
@@ -145,7 +129,7 @@ def kit(
 
     Writes kit.json, an OpenSCAD file with sliders, a Makefile, a README and a preview, all or
     nothing, once it is proved that every joint locks and comes apart without its pegs.  Lengths
-    are in mm.
+    are in mm, or have a unit: 8, 8mm, 0.8cm or 0.3in.
 
     \b
     scadgen kit hexagonal -o out/hexagonal
@@ -161,16 +145,27 @@ def kit(
     from scadgen.work.each import Means
 
     material = check_material(material)
-    request, notes = kit_request(frame, options, {name for name, *_ in _LENGTHS}, _command())
+    request, notes = kit_request(frame, options, PARAMETERS, _command())
     folder = output or Path(request.name)
-    check_folder(folder)
+    read = [Path(frame), *([Path(options["weave"])] if options["weave"] else [])]
+    check_folder(folder, request.name, read, force=force)
     told: list[str] = []
-    with hired(jobs, dask, told.append) as crew, progress(f"making {folder}") as bar:
+    with (
+        _told_of_curves(notes),
+        hired(jobs, dask, told.append) as crew,
+        progress(f"making {folder}") as bar,
+    ):
         means = Means(crew, None if no_cache else Cache(default_folder()))
         made, done = _made(request, means, bar, unchecked=unchecked)
         write = bar.steps(done, 1.0, _FILES)
         made = replace(made, material=material)
-        write_kit(made, folder, progress=lambda file: write(f"writing {file}"))
+        write_kit(
+            made,
+            folder,
+            read=read,
+            force=force,
+            progress=lambda file: write(f"writing {file}"),
+        )
     if made.refused:
         choices = counted(len(made.refused), "choice")
         told.append(f"{choices} of a key not proved, or the frame loose with it: another is used")
@@ -180,6 +175,21 @@ def kit(
         click.echo(json.dumps(said, indent=1))
     else:
         _say(made, folder, notes)
+
+
+@contextmanager
+def _told_of_curves(notes: Sequence[str]) -> Iterator[None]:
+    """Say what helps if there is no room for joints in a drawing that has curves."""
+    from scadgen.readers.curves import CURVED
+
+    try:
+        yield
+    except GeometryError as error:
+        # A joint that is not proved is no matter of room.
+        if isinstance(error, JointError) or not any(note.startswith(CURVED) for note in notes):
+            raise
+        msg = f"{error}; a larger --flatten makes the segments of its curves longer"
+        raise GeometryError(msg) from error
 
 
 def _made(request: Request, means: Means, bar: Bar, *, unchecked: bool) -> tuple[Kit, float]:
@@ -220,8 +230,12 @@ def _say(made: Kit, folder: Path, notes: Sequence[str]) -> None:
 
 def _command() -> str:
     """The command line that makes the kit again: what was given, but where to."""
+    from scadgen.emit.shell import shell_line
+
     context = click.get_current_context()
-    words = ["scadgen", "kit", str(context.params["frame"])]
+    frame = str(context.params["frame"])
+    # A name that begins so would be an option.
+    words = ["scadgen", "kit", f"./{frame}" if frame.startswith("-") else frame]
     for parameter in context.command.params:
         name = parameter.name or ""
         given = context.get_parameter_source(name) != click.core.ParameterSource.DEFAULT
@@ -230,4 +244,4 @@ def _command() -> str:
             words.append(parameter.opts[-1])
             if value is not True:  # a flag is its option alone
                 words.append(repr(value) if isinstance(value, float) else str(value))
-    return shlex.join(words)
+    return shell_line(words)

@@ -9,7 +9,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from scadgen.cli.curves import share_of_room
 from scadgen.cli.frame_source import has_cells, load_frame, option
+from scadgen.cli.words import meant
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -85,7 +87,8 @@ def _of_frame(
     elif areas and "edge_length" in wanted.values:
         msg = f"frame {frame}: --edge-length and {option(areas[0])}: give one of them"
         raise InputError(msg)
-    read = load_frame(frame, options)
+    length = wanted.values.get("edge_length")
+    read = load_frame(frame, options, lambda drawn: share_of_room(drawn, wanted.side, length))
     request = replace(wanted, frame=read.frame)
     if areas and cells_grow and "edge_length" not in wanted.values:
         request = _filled(request, frame, options, float(read.frame.lengths.min()))
@@ -148,7 +151,10 @@ def _weave(name: str) -> Any:  # noqa: ANN401  imported late: the import takes a
     try:
         entries = json.loads(read_regular(path, _LONGEST_WEAVE))
     except OSError as error:
-        msg = f"weave {name!r}: neither a file nor one of {', '.join(BUILT_IN)} ({error.strerror})"
+        msg = (
+            f"weave {name!r}: neither a file nor one of {', '.join(BUILT_IN)}"
+            f"{meant(name, BUILT_IN)} ({error.strerror})"
+        )
         raise InputError(msg) from error
     except InputError as error:
         msg = f"weave {name!r}: {error}"

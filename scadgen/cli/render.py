@@ -10,6 +10,7 @@ from pathlib import Path
 import click
 
 from scadgen.cli.console import status, table, timeout_option
+from scadgen.cli.words import meant
 from scadgen.errors import InputError
 
 __all__ = ["render"]
@@ -46,6 +47,7 @@ def render(
     from scadgen.kit.store import load
     from scadgen.tools import openscad
     from scadgen.tools.stl import check_stl
+    from scadgen.tools.threemf import name_object
 
     kit = load(folder)
     if kind not in ("stl", "3mf", "png"):
@@ -54,7 +56,7 @@ def render(
     known = (*kit.parts, *views(kit))
     for part in parts:
         if part not in known:
-            msg = f"part = {part!r}: must be one of {', '.join(known)}"
+            msg = f"part = {part!r}: must be one of {', '.join(known)}{meant(part, known)}"
             raise InputError(msg)
     values = settings(kit, changes, (HEIGHT,))
     target = folder / kind
@@ -72,6 +74,8 @@ def render(
         scad = folder / f"{kit.name}.scad"
         setting: dict[str, str | float] = {"part": part, **values}
         done = openscad.render(scad, output, setting, timeout=timeout, options=options, stop=stop)
+        if kind == "3mf":
+            name_object(output, part)
         content = f"{check_stl(output) / 1000:.2f} cm3, watertight" if kind == "stl" else ""
         return click.format_filename(output), f"{done.seconds:.1f} s", content
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from scadgen.cli.console import progress, table
+from scadgen.cli.console import force_option, progress, table
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
@@ -48,6 +48,7 @@ _FILE = click.Path(path_type=Path)
 @click.option(
     "-o", "--output", type=_FILE, help="Write the tightest weave for scadgen kit --weave."
 )
+@force_option
 @click.option("--json", "as_json", is_flag=True, help="Print the weaves as JSON.")
 def tune(  # noqa: PLR0913, PLR0917  one argument an option
     valence: int,
@@ -58,6 +59,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     jobs: int | None,
     record: Path | None,
     output: Path | None,
+    force: bool,  # noqa: FBT001
     as_json: bool,  # noqa: FBT001  click passes flags so
 ) -> int:
     """Search the weaves of a regular joint for the least play.
@@ -72,7 +74,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     scadgen tune --valence 5 --rounds 48 --record five.jsonl -o five.json
     scadgen kit hexagonal --weave tight.json
     """  # noqa: D301  click wants the character
-    from scadgen.emit.mesh import check_writable, write_atomic
+    from scadgen.emit.target import target
     from scadgen.joint.weave import Weave
     from scadgen.tune.judge import Wish
     from scadgen.tune.record import Record
@@ -88,8 +90,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     if seed < 0:
         msg = f"seed = {seed}: must be at least 0"
         raise InputError(msg)
-    if output:
-        check_writable(output)
+    place = target(output, [record] if record else [], force=force) if output else None
     wish = Wish(valence, key, arm)
     search = Search(wish, seed, Record(record, wish, seed))
     with progress("tuning") as bar:
@@ -97,8 +98,8 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
             bar.reach(gone)
             bar.say(_state(search))
     found = [(Weave(*shape, name=f"tuned-{valence}-{key}"), f) for shape, f in search.front]
-    if output and found:
-        write_atomic(output, (json.dumps(found[0][0].as_dict(), indent=1) + "\n").encode())
+    if place and found:
+        place.put((json.dumps(found[0][0].as_dict(), indent=1) + "\n").encode(), "json")
     if as_json:
         rows = [{**w.as_dict(), "play": f.play, "arm": f.arm} for w, f in found]
         click.echo(json.dumps(rows, indent=1))

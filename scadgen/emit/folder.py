@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
+import re
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
 from scadgen.emit.macro import macro
@@ -26,6 +28,9 @@ __all__ = ["PLAN_FILES", "check_bill", "check_folder", "files_of", "update_bill"
 #: every kit has.
 _STALE = {"stl", "3mf", "png", "plates", ".build", "assembly.png", "placing.svg"}
 
+#: Bytes at the start of a kit's file that hold the name of its frame.
+_START = 100_000
+
 #: The files of a plan, which a new kit makes stale, and so does a new plan.
 PLAN_FILES = ("plan.json", "plan.txt", "plan-*.svg")
 
@@ -37,7 +42,24 @@ def _is_stale(entry: Path) -> bool:
     return all(any(file.match(pattern) for pattern in PLAN_FILES) for file in entry.iterdir())
 
 
-_KIT = Sort("kit", "kit.json", FORMAT, _is_stale)
+def _names(frame: str) -> tuple[str, ...]:
+    """All files that a kit of a frame may have."""
+    own = (f"{frame}.scad", f"{frame}.json", f"{frame}.FCMacro")
+    pictures = ("preview.png", "assembly.png", "placing.svg")
+    return ("kit.json", *own, "Makefile", "check_stl.py", "README.md", "parts.csv", *pictures)
+
+
+def _own(folder: Path) -> tuple[str, ...]:
+    """The files of the kit that is in a folder."""
+    if not (folder / "kit.json").is_file():
+        return ()
+    with (folder / "kit.json").open("rb") as file:
+        # Kits of older versions call it their frame.
+        found = re.search(rb'\n "(?:name|frame)": ("[^"\n]*")', file.read(_START))
+    return _names(json.loads(found[1])) if found else _names("kit")
+
+
+_KIT = Sort("kit", "kit.json", FORMAT, _is_stale, _own)
 
 
 def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
@@ -60,7 +82,14 @@ def files_of(kit: Kit) -> Mapping[str, Callable[[Kit], str | bytes]]:
     return files
 
 
-def write_kit(kit: Kit, folder: Path, *, progress: Callable[[str], None] = lambda _: None) -> None:
+def write_kit(
+    kit: Kit,
+    folder: Path,
+    *,
+    read: Iterable[Path] = (),
+    force: bool = False,
+    progress: Callable[[str], None] = lambda _: None,
+) -> None:
     """Write a kit's folder; one that is there is replaced when the new one is complete.
 
     Parameters
@@ -70,6 +99,10 @@ def write_kit(kit: Kit, folder: Path, *, progress: Callable[[str], None] = lambd
     folder
         Where to; a kit that is there is replaced, with what was rendered from it, and all
         other files in it are kept.
+    read
+        Files that the kit was made of, which are not written over.
+    force
+        Whether to put it where other things are, and over any file.
     progress
         Called with the name of each file before it is written.
 
@@ -86,7 +119,7 @@ def write_kit(kit: Kit, folder: Path, *, progress: Callable[[str], None] = lambd
             progress(file)
             yield file, write(kit)
 
-    write_all(made(), folder, _KIT)
+    write_all(made(), folder, _KIT, read, force=force)
 
 
 def check_bill(kit: Kit, path: Path) -> Path:
@@ -157,12 +190,24 @@ def _of_bill(kit: Kit) -> tuple[str, ...]:
     return "kit.json", "parts.csv", "README.md", f"{kit.name}.FCMacro"
 
 
-def check_folder(folder: Path) -> Path:
+def check_folder(
+    folder: Path, frame: str, read: Iterable[Path] = (), *, force: bool = False
+) -> Path:
     """The folder itself, if a kit may be put there.
+
+    Parameters
+    ----------
+    folder
+        Where to.
+    frame
+        The name of the kit's frame.
+    read, force
+        As `write_kit` has them.
 
     Raises
     ------
     InputError
-        It is a file, holds something else, or cannot be looked at.
+        It is a file, holds something else, or cannot be looked at; a file in it that was read,
+        or is not of the kit that is there, would be lost.
     """
-    return check_target(folder, _KIT)
+    return check_target(folder, _KIT, _names(frame), read, force=force)

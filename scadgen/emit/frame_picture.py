@@ -26,6 +26,11 @@ _MARGIN = 30
 _TUBE, _TUBES = 0.09, (1.0, 8.0)
 _JOINT, _JOINTS = 0.14, (1.5, 12.0)
 
+#: Rings around places: how much wider than a joint, and their colours.
+_RING, _REPAIRED, _IN_THE_WAY = 1.8, "#1f6feb", "#d1242f"
+
+_NOWHERE = np.zeros((0, 2))
+
 #: The legend: its entries a row, height of a row in pixels, and most entries of joints or edges.
 _COLUMNS, _ROW, _ENTRIES = 5, 24, 30
 
@@ -36,7 +41,9 @@ _GOLDEN = 0.381966
 _PALE, _STRONG = ((0.62, 0.55, 0.7), 0.5), ((0.42, 0.3, 0.52), 0.75)
 
 
-def frame_svg(frame: Frame, same: Sameness) -> str:
+def frame_svg(
+    frame: Frame, same: Sameness, repaired: Floats = _NOWHERE, in_the_way: Floats = _NOWHERE
+) -> str:
     """Draw a frame, y up, with a legend where there are few kinds.
 
     Parameters
@@ -45,8 +52,12 @@ def frame_svg(frame: Frame, same: Sameness) -> str:
         The frame.
     same
         Its kinds of joints and edges.
+    repaired, in_the_way
+        ``(k, 2) float``: places where the drawing was changed, and where something keeps it from
+        being built, in mm.  They have a ring around them.
     """
-    points, height = _on_page(frame)
+    to_page, height = _page(frame)
+    points = to_page(frame.vertices)
     median = float(np.median(np.linalg.norm(np.diff(points[frame.edges], axis=1), axis=2)))
     tube = float(np.clip(_TUBE * median, *_TUBES))
     joint = float(np.clip(_JOINT * median, *_JOINTS))
@@ -69,8 +80,10 @@ def frame_svg(frame: Frame, same: Sameness) -> str:
             *_edges(points, frame, same),
             "</g>",
             '<g stroke="#222222">',
-            *_joints(points, same, joint),
+            *_joints(points, frame, same, joint),
             "</g>",
+            *_marks(to_page(repaired), "repaired", _REPAIRED, _RING * joint),
+            *_marks(to_page(in_the_way), "in the way", _IN_THE_WAY, 1.5 * _RING * joint),
             '<g font-family="sans-serif" font-size="13" fill="#222222">',
             *legend,
             "</g>",
@@ -79,16 +92,28 @@ def frame_svg(frame: Frame, same: Sameness) -> str:
     )
 
 
-def _on_page(frame: Frame) -> tuple[Floats, int]:
-    """Vertices in pixels, y down, and the height of the page without legend."""
+def _page(frame: Frame) -> tuple[Callable[[Floats], Floats], int]:
+    """What takes places to pixels, y down, and the height of the page without legend."""
     low, high = frame.bounds
     extent = high - low
     room = np.array([_WIDTH, _HEIGHT]) - 2 * _MARGIN
     scale = float((room / np.maximum(extent, 1e-9)).min())
     width, height = extent * scale
     left = (_WIDTH - width) / 2
-    points = (frame.vertices - low) * scale * (1, -1) + (left, _MARGIN + height)
-    return points, round(height) + 2 * _MARGIN
+
+    def to_page(places: Floats) -> Floats:
+        return np.asarray((places - low) * scale * (1, -1) + (left, _MARGIN + height))
+
+    return to_page, round(height) + 2 * _MARGIN
+
+
+def _marks(points: Floats, what: str, colour: str, radius: float) -> Iterator[str]:
+    """A ring around each place, with what it means."""
+    if len(points):
+        yield f'<g fill="none" stroke="{colour}" stroke-width="2"><title>{what}</title>'
+        for x, y in points:
+            yield f'<circle cx="{x:.2f}" cy="{y:.2f}" r="{radius:.2f}"/>'
+        yield "</g>"
 
 
 def _edges(points: Floats, frame: Frame, same: Sameness) -> Iterator[str]:
@@ -99,12 +124,15 @@ def _edges(points: Floats, frame: Frame, same: Sameness) -> Iterator[str]:
         yield f'<path stroke="{_colour(kind, _PALE)}" d="{path}"><title>edge {text}</title></path>'
 
 
-def _joints(points: Floats, same: Sameness, radius: float) -> Iterator[str]:
-    """A group of discs for each kind of joint."""
+def _joints(points: Floats, frame: Frame, same: Sameness, radius: float) -> Iterator[str]:
+    """A group of discs for each kind of joint; each says what its vertex is called."""
     for kind, text in enumerate(_joint_texts(same)):
         yield f'<g fill="{_colour(kind, _STRONG)}"><title>joint {text}</title>'
-        for x, y in points[same.joints[kind].vertices]:
-            yield f'<circle cx="{x:.2f}" cy="{y:.2f}" r="{radius:.2f}"/>'
+        for vertex in same.joints[kind].vertices:
+            x, y = points[vertex]
+            called = f"joint {joint_name(kind)}, {frame.called_vertex(int(vertex))}"
+            disc = f'<circle cx="{x:.2f}" cy="{y:.2f}" r="{radius:.2f}">'
+            yield f"{disc}<title>{called}</title></circle>"
         yield "</g>"
 
 

@@ -19,7 +19,10 @@ from scadgen.kit.store import dumps
 __all__ = ["macro", "workbench"]
 
 #: The modules that the macro is put together from, each after those it imports.
-_MODULES = ("faces", "cells", "sense", "affine", "brep", "shape", "names", "refusal", "macro")
+_MODULES = (
+    *("faces", "cells", "tables", "sense", "affine"),
+    *("brep", "shape", "names", "refusal", "macro"),
+)
 
 #: What modules import from each other, and the macro has in one place.
 _PACKAGE = "freecad.scadgen"

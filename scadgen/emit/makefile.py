@@ -9,6 +9,7 @@ from __future__ import annotations
 from scadgen import __version__
 from scadgen.emit.scad_parameters import views
 from scadgen.emit.scad_text import comment
+from scadgen.emit.shell import in_ascii
 from scadgen.emit.templates import UNCHECKED, environment
 from scadgen.kit.model import Kit
 
@@ -37,7 +38,7 @@ def makefile(kit: Kit) -> str:
         .render(
             title=f"{comment(kit.name)} frame of interlocking edge elements",
             version=__version__,
-            command=comment(kit.command),
+            command=comment(in_ascii(kit.command)),
             scad=f"{kit.name}.scad",
             parts=list(kit.parts),
             pictures=[name for name in views(kit) if name not in _FLAT],

@@ -26,6 +26,7 @@ import zipfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
@@ -62,7 +63,7 @@ _MODEL = """\
 <?xml version="1.0" encoding="UTF-8"?>
 <model unit="millimeter" xml:lang="en-US" \
 xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
-<resources><object id="1" type="model"><mesh>
+<resources><object id="1" type="model"{name}><mesh>
 <vertices>
 {vertices}
 </vertices>
@@ -81,7 +82,7 @@ _GL_FLOAT, _GL_UNSIGNED_INT = 5126, 5125
 _GL_VERTICES, _GL_INDICES = 34962, 34963
 
 
-def _stl(points: Floats, triangles: Ints) -> bytes:
+def _stl(points: Floats, triangles: Ints, _: str) -> bytes:
     faces = np.zeros(len(triangles), dtype=_STL_FACE)
     # Adding zero turns -0.0 into 0.0: readers that merge by bytes would keep them apart.
     corners = points.astype("<f4")[triangles] + np.float32(0)
@@ -102,29 +103,31 @@ def _decimals(points: Floats) -> list[tuple[str, str, str]]:
     return [(f"{x:.5f}", f"{y:.5f}", f"{z:.5f}") for x, y, z in rounded.tolist()]
 
 
-def _3mf(points: Floats, triangles: Ints) -> bytes:
+def _3mf(points: Floats, triangles: Ints, name: str) -> bytes:
     vertices = [f'<vertex x="{x}" y="{y}" z="{z}"/>' for x, y, z in _decimals(points)]
     faces = [f'<triangle v1="{a}" v2="{b}" v3="{c}"/>' for a, b, c in triangles.tolist()]
-    model = _MODEL.format(vertices="\n".join(vertices), triangles="\n".join(faces))
+    called = f" name={quoteattr(name)}" if name else ""
+    model = _MODEL.format(name=called, vertices="\n".join(vertices), triangles="\n".join(faces))
     buffer = io.BytesIO()
     zipped = zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=6)
     with interrupts_held(), zipped as package:
-        for name, text in (
+        for file, text in (
             ("[Content_Types].xml", _CONTENT_TYPES),
             ("_rels/.rels", _RELATIONS),
             ("3D/3dmodel.model", model),
         ):
-            entry = zipfile.ZipInfo(name, _NO_TIME)
+            entry = zipfile.ZipInfo(file, _NO_TIME)
             entry.compress_type = zipfile.ZIP_DEFLATED
             entry.create_system = 0
             package.writestr(entry, text)
     return buffer.getvalue()
 
 
-def _obj(points: Floats, triangles: Ints) -> bytes:
+def _obj(points: Floats, triangles: Ints, name: str) -> bytes:
     vertices = [f"v {x} {y} {z}\n" for x, y, z in _decimals(points)]
     faces = [f"f {a} {b} {c}\n" for a, b, c in (triangles + 1).tolist()]
-    return "".join(["# mm, z up\n", *vertices, *faces]).encode("ascii")
+    called = [f"o {name}\n"] if name else []
+    return "".join(["# mm, z up\n", *called, *vertices, *faces]).encode()
 
 
 def _glb_chunk(kind: bytes, data: bytes, padding: bytes) -> bytes:
@@ -132,17 +135,18 @@ def _glb_chunk(kind: bytes, data: bytes, padding: bytes) -> bytes:
     return struct.pack("<I", len(data)) + kind + data
 
 
-def _glb(points: Floats, triangles: Ints) -> bytes:
+def _glb(points: Floats, triangles: Ints, name: str) -> bytes:
     metres = np.column_stack([points[:, 0], points[:, 2], -points[:, 1]]) / 1000
     vertices = metres.astype("<f4") + np.float32(0)
     indices = triangles.astype("<u4").reshape(-1)
     split, end = vertices.nbytes, vertices.nbytes + indices.nbytes
+    called = {"name": name} if name else {}
     scene = {
         "asset": {"version": "2.0"},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+        "nodes": [{"mesh": 0, **called}],
+        "meshes": [{**called, "primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
         "buffers": [{"byteLength": end}],
         "bufferViews": [
             {"buffer": 0, "byteOffset": 0, "byteLength": split, "target": _GL_VERTICES},
@@ -171,7 +175,7 @@ def _glb(points: Floats, triangles: Ints) -> bytes:
     return _GLB_MAGIC + struct.pack("<II", _GLB_VERSION, 12 + len(body)) + body
 
 
-_WRITERS: dict[str, Callable[[Floats, Ints], bytes]] = {
+_WRITERS: dict[str, Callable[[Floats, Ints, str], bytes]] = {
     "stl": _stl,
     "3mf": _3mf,
     "obj": _obj,
@@ -182,7 +186,7 @@ _WRITERS: dict[str, Callable[[Floats, Ints], bytes]] = {
 FORMATS = tuple(_WRITERS)
 
 
-def mesh_bytes(points: Floats, triangles: Ints, format: str) -> bytes:  # noqa: A002
+def mesh_bytes(points: Floats, triangles: Ints, format: str, name: str = "") -> bytes:  # noqa: A002
     """Write a mesh in one of the `FORMATS`.
 
     Parameters
@@ -194,6 +198,8 @@ def mesh_bytes(points: Floats, triangles: Ints, format: str) -> bytes:  # noqa: 
     format
         ``stl`` (binary, float32, mm), ``3mf`` (mm), ``obj`` (mm) or ``glb`` (metres,
         y up).
+    name
+        What the part is called, on one line; STL has no names.
 
     Returns
     -------
@@ -214,7 +220,7 @@ def mesh_bytes(points: Floats, triangles: Ints, format: str) -> bytes:  # noqa: 
             f"a mesh of {len(triangles)} faces cannot be written; it needs faces and finite points"
         )
         raise InputError(msg)
-    return writer(points, triangles)
+    return writer(points, triangles, name)
 
 
 def write_atomic(path: Path, data: bytes) -> None:

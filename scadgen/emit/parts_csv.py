@@ -9,10 +9,10 @@ from scadgen.emit.part_words import words
 from scadgen.kit.bill import Line, lines
 from scadgen.kit.model import DENSITIES, Kit
 
-__all__ = ["parts_csv"]
+__all__ = ["HEADER", "parts_csv"]
 
 #: The columns; all but the counts are of one piece.
-_HEADER = (
+HEADER = (
     "number",
     "part",
     "what",
@@ -42,7 +42,7 @@ def parts_csv(kit: Kit) -> str:
     """
     text = io.StringIO()
     table = csv.writer(text, lineterminator="\n")
-    table.writerow(_HEADER)
+    table.writerow(HEADER)
     what = words(kit)
     table.writerows(_row(kit, line, what[line.part]) for line in lines(kit))
     return text.getvalue()

@@ -16,17 +16,16 @@ from scadgen.emit.picture import COLOURS
 from scadgen.emit.scad_numbers import HIGHEST, tubes
 from scadgen.emit.scad_parameters import parameter_sets, sections
 from scadgen.emit.scad_text import comment, expression, faces, number, quoted, table
+from scadgen.emit.shell import in_ascii
 from scadgen.emit.templates import environment
 from scadgen.errors import InvariantError
 from scadgen.frame.placement import Placement
 from scadgen.kit.cells import MOST_CELLS, CellPiece, Cells
+from scadgen.kit.live import LIVE, PARAMETERS
 from scadgen.kit.model import Joint, Kit
-from scadgen.solid.affine import PARAMETERS, AffineSolid
+from scadgen.solid.affine import AffineSolid
 
 __all__ = ["parameter_sets", "scad"]
-
-#: Live parameters that every kit has; the template counts on them.
-_NEEDED = ("side", "edge_length", "clearance", "peg_width", "peg_length", "peg_clearance")
 
 
 def scad(kit: Kit) -> str:
@@ -55,7 +54,7 @@ def scad(kit: Kit) -> str:
         title=f"{comment(kit.name).capitalize()} frame of interlocking edge elements",
         purpose="Parts of a planar truss, a joint, print plates, the whole frame, and a coupon.",
         version=__version__,
-        command=comment(kit.command),
+        command=comment(in_ascii(kit.command)),
         key=kit.key,
         joints=[_joint(one) for one in kit.joints],
         proved=kit.proved,
@@ -83,7 +82,6 @@ def scad(kit: Kit) -> str:
         cells=kit.cells and _cells(kit.cells),
         placements=[] if kit.cells else [_placement(p) for p in kit.placements],
         half_side=_half_side(kit),
-        chamfer=f"s[{live.index('peg_chamfer')}]" if "peg_chamfer" in live else "0",
         most_cells=MOST_CELLS,
     )
     if not text.isascii():
@@ -94,9 +92,9 @@ def scad(kit: Kit) -> str:
 
 def _check(kit: Kit) -> None:
     """Check what the template counts on."""
-    for name in _NEEDED:
-        if name not in kit.values:
-            msg = f"every kit has the live parameter {name}: this one has not"
+    for live in LIVE:
+        if not (live.optional or live.name in kit.values):
+            msg = f"every kit has the live parameter {live.name}: this one has not"
             raise InvariantError(msg)
     placed = [*kit.placements, *(p for one in kit.joints for p in one.pieces)]
     for name in sorted({p.part for p in placed} - set(kit.parts)):

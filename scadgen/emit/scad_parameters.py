@@ -11,7 +11,9 @@ from scadgen.emit.scad_numbers import HIGHEST
 from scadgen.emit.scad_text import literal
 from scadgen.errors import InvariantError
 from scadgen.kit.cells import MOST_CELLS
+from scadgen.kit.live import LIVE
 from scadgen.kit.model import Kit, Part
+from scadgen.kit.roles import PART_ROLES
 
 __all__ = [
     "Parameter",
@@ -31,33 +33,12 @@ _PARTS: Mapping[str, str] = {
     "half": "Locking half - print two a joint",
 }
 
-#: What other parts are, by their role; each may have a number or a letter of its own.
-_ROLES: Mapping[str, str] = {
-    "element": "Edge element {}",
-    "connector": "Loose connector {} for the rim",
-    "half": "Locking half {}",
-    "peg": "Loose peg {}",
-    "tube": "Plain tube {}",
-}
-
 #: What else is drawn.
 _VIEWS: Mapping[str, str] = {
     "plate": "Print plate of a whole frame",
     "joint_plate": "Print plate of one joint to try first",
     "frame": "Frame assembled",
     "coupon": "Coupon to find the clearance",
-}
-
-#: What each live parameter is, its section, and its slider's step in mm.
-_LIVE: Mapping[str, tuple[str, str, float]] = {
-    "side": ("Dimensions", "Side of the square tube, mm", 0.5),
-    "edge_length": ("Dimensions", "Distance between the centres of two joints, mm", 1.0),
-    "clearance": ("Clearance", "Gap between mating connectors, mm", 0.01),
-    "peg_clearance": ("Clearance", "Gap between the peg and each wall of its socket, mm", 0.01),
-    "peg_width": ("Peg", "Side of the square peg, mm", 0.1),
-    "peg_length": ("Peg", "Length of the peg, mm", 0.1),
-    "peg_chamfer": ("Peg", "Chamfer at the peg's tip, mm", 0.05),
-    "bore": ("Tube", "Side of the square hole along the tube, mm", 0.1),
 }
 
 #: A slider longer than this, in mm, cannot be set by hand.
@@ -123,7 +104,7 @@ def label(part: Part) -> str:
     if part.name in _PARTS:
         return _PARTS[part.name]
     number = part.name.partition("_")[2].removesuffix("_over")
-    said = " ".join(_ROLES[part.role].format(number).split())
+    said = " ".join(PART_ROLES[part.role].text.format(number).split())
     return f"{said} - second shape" if part.role == "half" and part.ends[0].over else said
 
 
@@ -133,10 +114,11 @@ def sections(kit: Kit) -> tuple[Section, ...]:
     widget = "[" + ", ".join(f"{name}:{text}" for name, text in choices.items()) + "]"
     shown = f'"{kit.joints[0].view}"'
     live: dict[str, list[Parameter]] = {}
-    for name, (title, text, step) in _LIVE.items():
-        if name in kit.values:
-            live.setdefault(title, []).append(
-                Parameter(name, literal(kit.values[name]), _slider(kit, name, step), text)
+    for one in LIVE:
+        if one.name in kit.values:
+            value, slider = literal(kit.values[one.name]), _slider(kit, one.name, one.step)
+            live.setdefault(one.section, []).append(
+                Parameter(one.name, value, slider, f"{one.text}, mm")
             )
     first = literal(min(1.0, max(0.02, round(kit.values["peg_clearance"] - 0.05, 2))))
     return (

@@ -11,7 +11,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from scadgen.errors import InputError, InvariantError
-from scadgen.frame.planarity import check_planar, where
+from scadgen.frame.numbering import Numbering, counted, where
+from scadgen.frame.planarity import check_planar
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["LARGEST", "Ends", "Frame", "canonical_order", "make_frame", "vertex_pairs"]
@@ -64,11 +65,15 @@ class Frame:
         ``(n, 2) float``, in mm, ascending by y, then x, to 9 decimals.
     edges
         ``(m, 2) int``, each with its lower vertex first, ascending.
+    numbering
+        What vertices and edges are called; None: by their numbers here.  Frames that differ in
+        nothing else are equal.
     """
 
     name: str
     vertices: Floats
     edges: Ints
+    numbering: Numbering | None = None
 
     def __post_init__(self) -> None:
         """Check the order and freeze the arrays."""
@@ -93,6 +98,20 @@ class Frame:
     def __hash__(self) -> int:
         """Equal frames have equal hashes."""
         return hash((self.name, self.vertices.tobytes(), self.edges.tobytes()))
+
+    @cached_property
+    def called(self) -> Numbering:
+        """What vertices and edges are called."""
+        return self.numbering or counted(len(self.vertices), len(self.edges))
+
+    def called_vertex(self, vertex: int) -> str:
+        """What a vertex is called, and where it is: ``vertex 3 at (0, 80)``."""
+        return self.called.vertex(vertex, self.vertices[vertex])
+
+    def called_edge(self, edge: int) -> str:
+        """What an edge is called, and where it goes from and to."""
+        ends = self.edges[edge]
+        return self.called.edge(edge, ends, self.vertices[ends])
 
     @cached_property
     def degree(self) -> Ints:
@@ -155,7 +174,9 @@ class Frame:
         return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
 
 
-def make_frame(name: str, vertices: ArrayLike, edges: ArrayLike) -> Frame:
+def make_frame(
+    name: str, vertices: ArrayLike, edges: ArrayLike, numbering: Numbering | None = None
+) -> Frame:
     """Check a planar graph and put it in order; the order of the input does not matter.
 
     Parameters
@@ -166,22 +187,27 @@ def make_frame(name: str, vertices: ArrayLike, edges: ArrayLike) -> Frame:
         ``(n, 2) float``, in mm; they are rounded to 9 decimals.
     edges
         ``(m, 2) int``: the two vertices of each edge.
+    numbering
+        What these vertices and edges are called.
 
     Raises
     ------
     InputError
         Another shape, coordinates that are not finite or beyond `LARGEST`, an edge to a
         vertex that is not there or to itself, an edge given twice, a vertex without an edge,
-        vertices that are one, edges that meet elsewhere than at a vertex.  Numbers are those
-        of the input.
+        vertices that are one, edges that meet elsewhere than at a vertex.  They are called as
+        `numbering` says, else by their numbers in the input.
     """
     points = _points(vertices)
     pairs = vertex_pairs(edges, len(points))
-    _check_pairs(pairs, points)
-    check_planar(points, pairs)
+    called = numbering or counted(len(points), len(pairs))
+    _check_pairs(pairs, points, called)
+    check_planar(points, pairs, called)
     order = canonical_order(points)
     pairs = np.sort(np.argsort(order)[pairs], axis=1)
-    return Frame(name, points[order], pairs[np.lexsort(pairs.T[::-1])])
+    of_edges = np.lexsort(pairs.T[::-1])
+    numbers = numbering and numbering.sorted(order, of_edges)
+    return Frame(name, points[order], pairs[of_edges], numbers)
 
 
 def canonical_order(points: Floats) -> Ints:
@@ -234,11 +260,12 @@ def vertex_pairs(edges: ArrayLike, count: int) -> Ints:
     return pairs
 
 
-def _check_pairs(pairs: Ints, points: Floats) -> None:
+def _check_pairs(pairs: Ints, points: Floats, called: Numbering) -> None:
     loops = np.flatnonzero(pairs[:, 0] == pairs[:, 1])
     if len(loops):
-        at = where(points[pairs[loops[0], 0]])
-        msg = f"edge {loops[0]} goes from vertex {pairs[loops[0], 0]} at {at} to itself"
+        at = pairs[loops[0], 0]
+        edge = called.short(loops[0], pairs[loops[0]], points[pairs[loops[0]]])
+        msg = f"{edge} goes from {called.vertex(at, points[at])} to itself"
         raise InputError(msg)
     low = np.sort(pairs, axis=1)
     _, first, inverse = np.unique(low, axis=0, return_index=True, return_inverse=True)
@@ -249,5 +276,5 @@ def _check_pairs(pairs: Ints, points: Floats) -> None:
         raise InputError(msg)
     alone = np.setdiff1d(np.arange(len(points)), pairs)
     if len(alone):
-        msg = f"vertex {alone[0]} at {where(points[alone[0]])} has no edge"
+        msg = f"{called.vertex(alone[0], points[alone[0]])} has no edge"
         raise InputError(msg)

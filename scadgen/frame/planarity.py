@@ -11,9 +11,10 @@ import shapely
 from numpy.typing import NDArray
 
 from scadgen.errors import InputError
+from scadgen.frame.numbering import Numbering, where
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["COUNTED", "TOUCH", "check_planar", "corner", "crossings", "more", "touches", "where"]
+__all__ = ["COUNTED", "TOUCH", "check_planar", "corner", "crossings", "more", "touches"]
 
 #: Of faults that are refused, this many are counted; what is beyond takes time and says no more.
 COUNTED = 1000
@@ -32,14 +33,9 @@ _Bools = NDArray[np.bool_]
 TOUCH = 1e-6
 
 
-def where(point: Floats) -> str:
-    """A point as text: ``(12.5, 40)``, in mm."""
-    return f"({point[0] + 0.0:.6g}, {point[1] + 0.0:.6g})"
-
-
-def corner(vertex: int, point: Floats, gaps: Sequence[float]) -> str:
-    """A vertex and the angles between its edges, in degrees, as text."""
-    return f"vertex {vertex} at {where(point)}, angles {', '.join(f'{gap:.4g}' for gap in gaps)}"
+def corner(vertex: str, gaps: Sequence[float]) -> str:
+    """A vertex, as it is called, and the angles between its edges, in degrees, as text."""
+    return f"{vertex}, angles {', '.join(f'{gap:.4g}' for gap in gaps)}"
 
 
 def more(count: int, most: float = math.inf) -> str:
@@ -122,8 +118,17 @@ def crossings(vertices: Floats, edges: Ints, most: int) -> Ints:
     return _first(ends, ends, meet, most)
 
 
-def check_planar(vertices: Floats, edges: Ints) -> None:
+def check_planar(vertices: Floats, edges: Ints, numbering: Numbering) -> None:
     """Refuse edges that meet anywhere but at a common vertex.
+
+    Parameters
+    ----------
+    vertices
+        ``(n, 2) float``.
+    edges
+        ``(m, 2) int``.
+    numbering
+        What they are called.
 
     Raises
     ------
@@ -134,26 +139,33 @@ def check_planar(vertices: Floats, edges: Ints) -> None:
     lengths = np.linalg.norm(np.diff(vertices[edges], axis=1)[:, 0], axis=1)
     short = np.flatnonzero(lengths <= TOUCH)
     if len(short):
-        first, second = edges[short[0]]
-        msg = (
-            f"edge {short[0]} from vertex {first} to {second} has no length, at "
-            f"{where(vertices[first])}{more(len(short))}"
-        )
+        ends = edges[short[0]]
+        msg = f"{numbering.edge(short[0], ends, vertices[ends])} has no length{more(len(short))}"
         raise InputError(msg)
     on = touches(vertices, edges, TOUCH, COUNTED)
     if len(on):
         vertex, edge = on[0]
         apart = np.linalg.norm(vertices[edges[edge]] - vertices[vertex], axis=1)
-        what = f"vertex {edges[edge][apart.argmin()]}" if apart.min() <= TOUCH else f"edge {edge}"
-        msg = f"vertex {vertex} at {where(vertices[vertex])} lies on {what}{more(len(on), COUNTED)}"
+        ends = edges[edge]
+        nearest = ends[apart.argmin()]
+        what = (
+            numbering.vertex(nearest, vertices[nearest])
+            if apart.min() <= TOUCH
+            else numbering.short(edge, ends, vertices[ends])
+        )
+        called = numbering.vertex(vertex, vertices[vertex])
+        msg = f"{called} lies on {what}{more(len(on), COUNTED)}"
         raise InputError(msg)
     pairs = crossings(vertices, edges, COUNTED)
     if len(pairs):
         first, second = _lines(vertices[edges[pairs[0]]])
         point = shapely.get_coordinates(shapely.intersection(first, second))[0]
+        called = " and ".join(
+            numbering.short(edge, edges[edge], vertices[edges[edge]]) for edge in pairs[0]
+        )
         msg = (
-            f"edges {pairs[0, 0]} and {pairs[0, 1]} cross at "
-            f"{where(point)}{more(len(pairs), COUNTED)}: a frame has a vertex there"
+            f"{called} cross at {where(point)}{more(len(pairs), COUNTED)}: a frame has a vertex "
+            "there"
         )
         raise InputError(msg)
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import NoReturn
@@ -16,7 +15,8 @@ from scipy.spatial import cKDTree
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import LARGEST, Frame, make_frame
-from scadgen.frame.planarity import COUNTED, TOUCH, crossings, more, touches, where
+from scadgen.frame.numbering import BY_PLACE, where
+from scadgen.frame.planarity import COUNTED, TOUCH, crossings, more, touches
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["MOST_SEGMENTS", "REPAIRS", "TOLERANCE", "Repaired", "repair"]
@@ -38,6 +38,9 @@ _CROWDED = 1_000_000
 
 #: Merging and splitting settle in a few rounds; what takes more goes in circles.
 _ROUNDS = 40
+
+#: Places shown of repairs of one kind.
+_SHOWN = 3
 
 #: What is repaired, in the order in which it is counted.
 REPAIRS: Mapping[str, str] = MappingProxyType(
@@ -63,12 +66,15 @@ class Repaired:
     counts
         How many repairs of each kind, by the keys of `REPAIRS`.
     notes
-        Each of them in one line, with its place.
+        A line for each kind of repair, with some of its places.
+    places
+        ``(p, 2) float``: all of them, in mm.
     """
 
     frame: Frame
     counts: Mapping[str, int]
     notes: tuple[str, ...]
+    places: Floats
 
 
 @dataclass(slots=True)
@@ -79,13 +85,30 @@ class _Work:
     pairs: Ints
     tolerance: float
     most: int
-    done: Counter[str] = field(default_factory=Counter)
-    notes: list[str] = field(default_factory=list)
+    done: dict[str, list[tuple[Floats, str]]] = field(default_factory=dict)
+    #: How far the ends were off that were joined to segments, in mm.
+    off: float = 0.0
 
-    def note(self, kind: str, lines: Iterable[str]) -> None:
-        before = len(self.notes)
-        self.notes.extend(lines)
-        self.done[kind] += len(self.notes) - before
+    def note(self, kind: str, repairs: Iterable[tuple[Floats, str]]) -> None:
+        """Keep where something was repaired, and what is said of it if it is the only one."""
+        self.done.setdefault(kind, []).extend(repairs)
+
+    def notes(self) -> Iterator[str]:
+        for kind, repairs in self.done.items():
+            if len(repairs) == 1:
+                yield repairs[0][1]
+            elif repairs:
+                at = ", ".join(where(place) for place, _ in repairs[:_SHOWN])
+                rest = f" and {len(repairs) - _SHOWN} more" if len(repairs) > _SHOWN else ""
+                off = f", up to {self.off:.2g} mm off" if kind == "joined" else ""
+                yield f"{len(repairs)} {REPAIRS[kind]}{off}: at {at}{rest}"
+
+    def places(self) -> Floats:
+        found = [place for repairs in self.done.values() for place, _ in repairs]
+        return np.array(found, dtype=float).reshape(-1, 2)
+
+    def middle(self, pair: Ints) -> Floats:
+        return np.asarray(self.points[pair].mean(axis=0))
 
     def segment(self, pair: Ints) -> str:
         return f"{where(self.points[pair[0]])} to {where(self.points[pair[1]])}"
@@ -132,9 +155,10 @@ def repair(
             raise InputError(msg)
         if not (_join(work) or _cross(work, split=split)):
             used, numbers = np.unique(work.pairs, return_inverse=True)
-            frame = make_frame(name, work.points[used], numbers.reshape(-1, 2))
-            counts = {kind: work.done[kind] for kind in REPAIRS}
-            return Repaired(frame, MappingProxyType(counts), tuple(work.notes))
+            frame = make_frame(name, work.points[used], numbers.reshape(-1, 2), BY_PLACE)
+            counts = {kind: len(work.done.get(kind, ())) for kind in REPAIRS}
+            notes = tuple(work.notes())
+            return Repaired(frame, MappingProxyType(counts), notes, work.places())
     msg = f"repairs with a tolerance of {tolerance:g} mm do not settle; try a smaller one"
     raise InputError(msg)
 
@@ -181,7 +205,13 @@ def _merge(work: _Work) -> None:
         work.note(
             "merged",
             (
-                f"{crowd[k] + 1} places within {work.tolerance:g} mm merged at {where(points[k])}"
+                (
+                    points[k],
+                    (
+                        f"{crowd[k] + 1} places within {work.tolerance:g} mm merged at "
+                        f"{where(points[k])}"
+                    ),
+                )
                 for k in np.flatnonzero(crowd)
             ),
         )
@@ -218,14 +248,17 @@ def _drop(work: _Work, again: str) -> None:
     flat = work.pairs[:, 0] == work.pairs[:, 1]
     work.note(
         "dropped",
-        (f"segment without length dropped at {where(work.points[k])}" for k in work.pairs[flat, 0]),
+        (
+            (work.points[k], f"segment without length dropped at {where(work.points[k])}")
+            for k in work.pairs[flat, 0]
+        ),
     )
     pairs = np.sort(work.pairs[~flat], axis=1)
     work.pairs, counts = np.unique(pairs, axis=0, return_counts=True)
     work.note(
         again,
         (
-            f"segment {work.segment(pair)} was there {count} times"
+            (work.middle(pair), f"segment {work.segment(pair)} was there {count} times")
             for pair, count in zip(work.pairs, counts, strict=True)
             for _ in range(count - 1)
         ),
@@ -246,11 +279,17 @@ def _join(work: _Work) -> bool:
     to = work.points[point] - start
     share = (to * along).sum(axis=1) / (along**2).sum(axis=1)
     off = np.linalg.norm(to - share[:, None] * along, axis=1)
+    work.off = max(work.off, float(off.max()))
     work.note(
         "joined",
         (
-            f"end at {where(work.points[p])} joined to segment {work.segment(work.pairs[s])}, "
-            f"{d:.2g} mm off"
+            (
+                work.points[p],
+                (
+                    f"end at {where(work.points[p])} joined to segment "
+                    f"{work.segment(work.pairs[s])}, {d:.2g} mm off"
+                ),
+            )
             for p, s, d in zip(point, segment, off, strict=True)
         ),
     )
@@ -275,7 +314,7 @@ def _cross(work: _Work, *, split: bool) -> bool:
         place = where(at[0]) + more(len(at), COUNTED)
         msg = f"segments cross at {place}; they must not cross, or be split there (no --no-split)"
         raise InputError(msg)
-    work.note("crossings", (f"crossing split at {where(point)}" for point in at))
+    work.note("crossings", ((point, f"crossing split at {where(point)}") for point in at))
     new = np.arange(len(work.points), len(work.points) + len(at))
     work.points = np.concatenate([work.points, at])
     _split(work, pairs.T.ravel(), np.tile(new, 2), shares.ravel())

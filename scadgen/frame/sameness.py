@@ -18,7 +18,7 @@ from scadgen.errors import InputError
 from scadgen.frame.alike import Ends, Slots
 from scadgen.frame.congruence import JointClass, congruent_joints
 from scadgen.frame.graph import Frame
-from scadgen.frame.planarity import where
+from scadgen.frame.numbering import where
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = [
@@ -133,7 +133,7 @@ class Snapped:
 
 
 def sameness(
-    frame: Frame, angle_tolerance: float = _ANGLE, length_tolerance: float = _LENGTH
+    frame: Frame, angle_tolerance: float | None = None, length_tolerance: float = _LENGTH
 ) -> Sameness:
     """Group joints by congruence and edges by what they connect.
 
@@ -143,7 +143,8 @@ def sameness(
         The frame.
     angle_tolerance
         In radians: a joint is put to a class if one turn brings every direction within this
-        of the class's first joint.
+        of the class's first joint.  None: what three decimals do to edges of 10 mm, or less
+        where two edges are so near each other that they would be one.
     length_tolerance
         In mm: a length is put to a class if it is within this of the class's.
 
@@ -153,6 +154,8 @@ def sameness(
         A tolerance that is not positive, or angles so coarse that two edges would be one.
     """
     smallest = float(frame.ends.gap.min())
+    if angle_tolerance is None:
+        angle_tolerance = min(_ANGLE, smallest / 8)
     if not 0 < angle_tolerance < smallest / 4:
         msg = (
             f"angle_tolerance = {angle_tolerance!r}: must be positive and under "
@@ -182,7 +185,7 @@ def sameness(
     )
 
 
-def snap(frame: Frame, angle: float, length: float) -> Snapped:
+def snap(frame: Frame, angle: float | None, length: float) -> Snapped:
     """Round angles and lengths together, so that fewer kinds of parts are needed.
 
     The frame stays as it is; parts are made for the classes, and the joints' play has to
@@ -193,7 +196,7 @@ def snap(frame: Frame, angle: float, length: float) -> Snapped:
     frame
         The frame.
     angle
-        How far a direction may be off, in radians.
+        How far a direction may be off, in radians; None: as `sameness` has it.
     length
         How far a length may be off, in mm.
 

@@ -18,7 +18,7 @@ from scipy.sparse.linalg import splu
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import Frame, make_frame
-from scadgen.frame.planarity import where
+from scadgen.frame.numbering import where
 from scadgen.frame.sameness import Sameness, group_values, sameness
 from scadgen.solid.affine import Floats, Ints
 
@@ -112,7 +112,7 @@ def move_vertices(frame: Frame, within: float, shortest: float = 0.0) -> Moved:
             "shortest edge"
         )
         raise InputError(msg)
-    before = _kinds(_sameness(frame))
+    before = _kinds(sameness(frame))
     for classes in _candidates(frame, within):
         points = _nearest(frame, classes, within)
         found = None if points is None else _checked(frame, points, shortest)
@@ -153,11 +153,6 @@ def _words(kinds: tuple[int, int]) -> str:
     return f"{joints} kind{'s'[: joints != 1]} of joints, {edges} of edges"
 
 
-def _sameness(frame: Frame) -> Sameness:
-    """What is the same; edges very near each other are no reason to refuse the frame."""
-    return sameness(frame, min(1e-4, float(frame.ends.gap.min()) / 8))
-
-
 def _kinds(same: Sameness) -> tuple[int, int]:
     return len(same.joints), len(same.edges)
 
@@ -179,12 +174,12 @@ def _candidates(frame: Frame, within: float) -> Iterator[_Classes]:
 def _checked(frame: Frame, points: Floats, shortest: float) -> tuple[Frame, tuple[int, int]] | None:
     """The moved frame and its kinds; None if its edges meet or one is too short."""
     try:
-        moved = make_frame(frame.name, points, frame.edges)
+        moved = make_frame(frame.name, points, frame.edges, frame.numbering)
     except InputError:
         return None
     if moved.lengths.min() < shortest:
         return None
-    return moved, _kinds(_sameness(moved))
+    return moved, _kinds(sameness(moved))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -8,7 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from scadgen.joint.curve import SiteCurve, slopes
-from scadgen.joint.walls import Key, Wedge
+from scadgen.joint.domain import OUTSIDE, Domain
+from scadgen.joint.walls import Feature, Wedge
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.vectors import cross
 
@@ -22,20 +23,23 @@ _DECIMALS = 9
 
 
 def fanned(
-    walls: Sequence[Wedge], position: dict[Key, Floats], curves: Sequence[SiteCurve]
+    walls: Sequence[Wedge],
+    position: dict[Feature, Floats],
+    curves: Sequence[SiteCurve],
+    domain: Domain,
 ) -> list[Wedge]:
     """The polygons, each starting at the corner from which it is to be cut into a fan.
 
-    That is a corner from which no triangle folds back, and whose diagonals' middles are the
-    nearest to the exact wall.  The choice depends on places alone, so polygons that a
-    symmetry of the joint maps to each other are cut alike.
+    That is a corner from which no triangle folds back or leaves the domain where its outside leans
+    inwards, and whose diagonals' middles are the nearest to the exact wall.  The choice depends on
+    places alone, so polygons that a symmetry of the joint maps to each other are cut alike.
     """
     result = list(walls)
     for count in sorted({len(wedge.corners) for wedge in walls} - {3}):
         numbers = [n for n, wedge in enumerate(walls) if len(wedge.corners) == count]
         corners = np.array([[position[c] for c in walls[n].corners] for n in numbers])
         labels = np.array([(walls[n].low, walls[n].high) for n in numbers])
-        scores = np.stack(_scores(corners, labels, curves), axis=2).tolist()
+        scores = np.stack(_scores(corners, labels, curves, domain), axis=2).tolist()
         for row, number in enumerate(numbers):
             wedge = walls[number]
             best = min(range(count), key=lambda n: (*scores[row][n], wedge.corners[n]))
@@ -44,11 +48,13 @@ def fanned(
     return result
 
 
-def _scores(corners: Floats, labels: Ints, curves: Sequence[SiteCurve]) -> list[Floats]:
+def _scores(
+    corners: Floats, labels: Ints, curves: Sequence[SiteCurve], domain: Domain
+) -> list[Floats]:
     """How bad it is to cut ``(p, k, 3)`` polygons from each corner, ``(p, k)``; compared in order.
 
-    Whether a triangle folds back, how far the diagonals' middles are from the wall, and how
-    long the diagonals are.
+    Whether a triangle folds back or leaves the domain, how far the diagonals' middles are from the
+    wall, and how long the diagonals are.
     """
     count = corners.shape[1]
     pairs = itertools.combinations(range(count), 2)
@@ -58,9 +64,13 @@ def _scores(corners: Floats, labels: Ints, curves: Sequence[SiteCurve]) -> list[
     low, high = (np.repeat(labels[:, side], len(ends)) for side in (0, 1))
     off = _distance_from_wall(middles, low, high, curves).reshape(len(corners), -1)
     length = np.linalg.norm(stop - start, axis=2)
+    out = np.zeros(off.shape, dtype=np.bool_)
+    if domain.leans:
+        out = (domain.beyond(middles) > OUTSIDE).reshape(off.shape)
     mine = [(ends == corner).any(axis=1) for corner in range(count)]
     return [
-        np.stack([_folds(np.roll(corners, -turn, axis=1)) for turn in range(count)], axis=1),
+        np.stack([_folds(np.roll(corners, -turn, axis=1)) for turn in range(count)], axis=1)
+        + np.stack([out[:, own].sum(axis=1) for own in mine], axis=1),
         np.stack([off[:, own].max(axis=1) for own in mine], axis=1).round(_DECIMALS),
         np.stack([length[:, own].sum(axis=1) for own in mine], axis=1).round(_DECIMALS),
     ]

@@ -1,14 +1,13 @@
-"""The domain of a joint, and the lattice that fits it.
+"""The lattice that fits a joint's domain.
 
-The domain (``docs/geometry.md``, step 1) is a prism: in plan, a polygon around the ring's
-outside less a polygon around its hole; from z = -1/2 to 1/2.  Towards each edge both
-polygons have one flat side.  The outer flat is exactly one side wide, so a tube starts on
-it as an exact square; the inner flat opposite is where a channel along the edge comes out.
+Its axes, in this order a left-handed frame, are the angle, the share of the way from the hole's
+outline to the outer one, and the height.  The domain's faces, and the vertical planes through its
+edges, are unions of its faces.
 
-The lattice's axes, in this order a left-handed frame, are the angle, the share of the way
-from the inner to the outer polygon, and the height.  It has planes of constant angle, of
-constant share and of constant height.  The domain's faces are unions of its faces.
-Lengths are in units of the side.
+Where the outside is upright, or slopes alike, nodes of one index are in a plane through the axis.
+Between flats of different slopes they lean, on either side of the wall's middle: the outline above
+goes on while that below stays, and then the other way around, so that outer faces are triangles.
+Turned over that is itself.  Lengths are in units of the side.
 """
 
 from __future__ import annotations
@@ -22,10 +21,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from scadgen.errors import GeometryError, InputError
+from scadgen.joint.domain import Domain, check_room, flats_of
+from scadgen.joint.lean import LEANING, lean
+from scadgen.joint.spokes import Spokes
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["Lattice", "directions_and_gaps", "make_lattice", "without_corners"]
+__all__ = ["Lattice", "make_lattice", "without_corners"]
 
 #: Half the width of the inner flats where there is room, in sides.
 _PAD = 0.36
@@ -36,6 +37,9 @@ _LONG = 2
 #: A plane closer to the next than this, in cells, is left out.
 _SLIVER = 0.5
 
+#: Slopes of two flats that are as near as this are the same, in radians.
+_SAME = 1e-9
+
 
 @dataclass(frozen=True, eq=False)
 class Lattice:
@@ -43,27 +47,33 @@ class Lattice:
 
     Parameters
     ----------
-    ring_ratio
-        Radius of the ring's centre line.
-    edges
-        Directions of the edges, ascending, in [0, 2 pi).
+    domain
+        The joint's domain.
     planes
-        Angles of the lattice planes, ascending; the cells after the last close the ring.
+        Angles of the lattice at its inner side, ascending; the cells after the last close the ring.
     edge_planes
         For each edge, the index of the plane through it.
+    flats
+        ``(edges, 2) int``: indices at which each edge's outer flat begins and ends.
+    middles
+        ``(edges,) int``: the cell in the middle of what is woven in the gap after each edge.
     strips
         ``(2, planes) int``: for each angular cell, the number of the domain's face that it
         lies on inside and outside.  Numbers ascend with the angle, but for the last half flat,
         which belongs to the first edge.
+    ends
+        ``(planes, 2) float``: angles at which the nodes outside are, below and above.
     nodes
         ``(planes, radii, heights, 3) float``.
     """
 
-    ring_ratio: float
-    edges: Floats
+    domain: Domain
     planes: Floats
     edge_planes: Ints
+    flats: Ints
+    middles: Ints
     strips: Ints
+    ends: Floats
     nodes: Floats
 
     @cached_property
@@ -71,69 +81,33 @@ class Lattice:
         """For each plane through an edge, the edge's number."""
         return {int(plane): edge for edge, plane in enumerate(self.edge_planes)}
 
-    @property
-    def tube_start(self) -> float:
-        """Distance X0 of the outer flats from the axis, where the tubes start."""
-        return math.sqrt((self.ring_ratio + 0.5) ** 2 - 0.25)
-
     @cached_property
-    def _pad_half_angle(self) -> float:
-        first = int(self.edge_planes[0])
-        inside = self.strips[0, first:] == self.strips[0, first]
-        return float(self.planes[first + np.argmin(inside)] - self.planes[first])
-
-    @property
-    def pad(self) -> float:
-        """Distance of the inner flats from the axis."""
-        return (self.ring_ratio - 0.5) * math.cos(self._pad_half_angle)
-
-    @property
-    def pad_half_width(self) -> float:
-        """Half the width of the inner flats."""
-        return (self.ring_ratio - 0.5) * math.sin(self._pad_half_angle)
+    def firsts(self) -> Ints:
+        """``(planes, 2) int``: the first index whose node on the outline below or above is this."""
+        found = [np.unique(side, return_index=True, return_inverse=True) for side in self.ends.T]
+        return np.stack([first[inverse] for _, first, inverse in found], axis=1)
 
     def longest_edges(self) -> Floats:
         """Length of the longest edge at the nodes of each plane, ``(planes,)``."""
-        rim = self.nodes[:, -1, 0]
-        ahead = np.linalg.norm(np.roll(rim, -1, axis=0) - rim, axis=1)
-        across = np.linalg.norm(self.nodes[:, 1, 0] - self.nodes[:, 0, 0], axis=1)
-        rise = self.nodes[0, 0, 1, 2] - self.nodes[0, 0, 0, 2]
-        return np.asarray(np.maximum.reduce([ahead, np.roll(ahead, 1), across]).clip(min=rise))
+        nodes = self.nodes
+        ahead = np.linalg.norm(np.roll(nodes, -1, axis=0) - nodes, axis=-1).max(axis=(1, 2))
+        across = np.linalg.norm(np.diff(nodes, axis=1), axis=-1).max(axis=(1, 2))
+        rise = np.linalg.norm(np.diff(nodes, axis=2), axis=-1).max(axis=(1, 2))
+        return np.asarray(np.maximum.reduce([ahead, np.roll(ahead, 1), across, rise]))
 
     def flat(self, side: int, edge: int) -> int:
         """Number of an edge's flat, inside (0) or outside (1)."""
         return int(self.strips[side, self.edge_planes[edge]])
 
-    def volume(self) -> float:
-        """Volume of the domain, from its two outlines alone, in cubic sides."""
-        area = 0.0
-        for strips, sign, radius in zip(
-            self.strips, (-1, 1), (self.ring_ratio - 0.5, self.ring_ratio + 0.5), strict=True
-        ):
-            angles = self.planes[strips != np.roll(strips, 1)]
-            turns = np.diff(np.append(angles, angles[0] + 2 * np.pi))
-            area += sign * 0.5 * radius**2 * float(np.sin(turns).sum())
-        return area
-
-
-def directions_and_gaps(edges: Sequence[float]) -> tuple[Floats, Floats]:
-    """Directions as an array, and the angle from each to the next.
-
-    Raises
-    ------
-    InputError
-        Fewer than two edges, or directions that do not ascend.
-    """
-    directions = np.asarray(edges, dtype=float)
-    gaps = np.diff(np.append(directions, directions[:1] + 2 * np.pi))
-    if len(directions) < 2 or not (gaps > 0).all() or directions[0] < 0:
-        msg = f"edges {list(edges)}: must be two or more ascending angles in [0, 2 pi)"
-        raise InputError(msg)
-    return directions, gaps
+    def lines(self, side: int, height: Floats) -> Floats:
+        """Points of the lattice's lines inside (0) or outside (1), ``(planes, heights, 3)``."""
+        low, high = (self.nodes[:, -side, end, None] for end in (0, -1))
+        share = (height + 0.5)[:, None]
+        return np.asarray(low * (1 - share) + high * share)
 
 
 def make_lattice(
-    edges: Sequence[float],
+    spokes: Spokes,
     ring_ratio: float,
     cells: int,
     extra: int = 0,
@@ -143,8 +117,8 @@ def make_lattice(
 
     Parameters
     ----------
-    edges
-        Directions of the edges, ascending, in [0, 2 pi), at least two.
+    spokes
+        Its edges.
     ring_ratio
         Radius of the ring's centre line.
     cells
@@ -158,53 +132,74 @@ def make_lattice(
 
     Raises
     ------
-    InputError
-        Fewer than two edges, or directions that do not ascend.
     GeometryError
         Two tubes would overlap where they leave the ring.
     """
-    directions, gaps = directions_and_gaps(edges)
-    flat = math.asin(0.5 / (ring_ratio + 0.5))
-    if (gaps <= 2 * flat).any():
-        need = 0.5 / math.sin(gaps.min() / 2) - 0.5
-        msg = (
-            f"ring_ratio = {ring_ratio:g}: two tubes overlap {math.degrees(gaps.min()):.4g} "
-            f"degrees apart; it must be at least {need:.4g}"
-        )
-        raise GeometryError(msg)
-    pad = _pad_half_angle(ring_ratio, flat, float(gaps.min()), cells)
-    near = max(1, round(flat * ring_ratio * cells))
-    far = math.ceil((pad - flat) * ring_ratio * cells - 1e-9)
-    rise = np.concatenate([np.linspace(0, flat, near + 1), np.linspace(flat, pad, far + 1)[1:]])
+    check_room(spokes, ring_ratio)
+    gaps, least = spokes.gaps, float(spokes.gaps.min())
+    half = flats_of(spokes.slopes, ring_ratio).half_angle
+    rises = [_rise(flat, ring_ratio, least, cells) for flat in half.tolist()]
+    leans = _leaning(spokes).tolist()
     angles: list[Floats] = []
     planes: list[int] = []
-    for number, (edge, gap) in enumerate(zip(directions, gaps, strict=True)):
+    middles: list[int] = []
+    for edge, (azimuth, gap) in enumerate(zip(spokes.azimuths, gaps, strict=True)):
+        (rise, _), (fall, _) = rises[edge], rises[(edge + 1) % len(rises)]
         planes.append(sum(map(len, angles)))
-        between = (pad, gap - pad) if woven is None else woven[number]
-        span = _between(pad, gap - pad, between, ring_ratio, cells, extra)
-        angles.append(edge + np.concatenate([rise, span, (gap - rise)[:0:-1]]))
-    theta = np.concatenate(angles)
-    off = np.abs((theta[:, None] - directions + np.pi) % (2 * np.pi) - np.pi).min(axis=1)
-    corner = np.stack([off > pad - 1e-9, off > flat - 1e-9])
-    return _with_corners(ring_ratio, directions, theta, np.array(planes), corner, cells)
+        low, high = rise[-1], gap - fall[-1]
+        between = (low, high) if woven is None else woven[edge]
+        least = LEANING if leans[edge] else 0
+        span, middle = _between(low, high, between, ring_ratio, cells, extra, least)
+        middles.append(planes[-1] + len(rise) - 1 + middle)
+        angles.append(azimuth + np.concatenate([rise, span, (gap - fall)[:0:-1]]))
+    theta, edge_planes = np.concatenate(angles), np.array(planes)
+    flats = (edge_planes[:, None] + np.array([(-near, near) for _, near in rises])) % len(theta)
+    off = np.abs((theta[:, None] - spokes.azimuths + np.pi) % (2 * np.pi) - np.pi)
+    pads = np.array([rise[-1] for rise, _ in rises])
+    corner = np.stack([(off > flat - 1e-9).all(axis=1) for flat in (pads, half)])
+    at = np.array(middles)
+    return _with_corners(spokes, ring_ratio, theta, edge_planes, flats, at, corner, cells)
+
+
+def _leaning(spokes: Spokes) -> NDArray[np.bool_]:
+    """The gaps, each by the edge before it, between flats of different slopes."""
+    slopes = spokes.slopes
+    return np.asarray(np.abs(np.roll(slopes, -1) - slopes) > _SAME)
+
+
+def _rise(flat: float, ring_ratio: float, gap: float, cells: int) -> tuple[Floats, int]:
+    """Angles from an edge to the end of its inner flat, and the index of that of the outer one."""
+    pad = _pad_half_angle(ring_ratio, flat, gap, cells)
+    near = max(1, round(flat * ring_ratio * cells))
+    far = math.ceil((pad - flat) * ring_ratio * cells - 1e-9)
+    rise = [np.linspace(0, flat, near + 1), np.linspace(flat, pad, far + 1)[1:]]
+    return np.concatenate(rise), near
 
 
 def _between(
-    low: float, high: float, woven: tuple[float, float], ring_ratio: float, cells: int, extra: int
-) -> Floats:
-    """Angles of the planes between two flats, these not included."""
+    low: float,
+    high: float,
+    woven: tuple[float, float],
+    ring_ratio: float,
+    cells: int,
+    extra: int,
+    least: int,
+) -> tuple[Floats, int]:
+    """Angles of the planes between two flats, these not included, and which cell is in the middle.
+
+    There are at least so many cells where walls are, an odd number.
+    """
     start, end = max(low, woven[0]), min(high, woven[1])
-    fine = math.ceil((end - start) * ring_ratio * cells) // 2 * 2 + 1 + extra
+    fine = max(least, math.ceil((end - start) * ring_ratio * cells) // 2 * 2 + 1 + extra)
     long = ring_ratio * min(cells, _LONG)
     before, after = (math.ceil(way * long - _SLIVER) for way in (start - low, high - end))
     stations = [low, start, end, high][before == 0 : 4 - (after == 0)]
     counts = [count for count in (before, fine, after) if count]
-    return np.concatenate(
-        [
-            np.linspace(a, b, count + 1)[1:]
-            for (a, b), count in zip(itertools.pairwise(stations), counts, strict=True)
-        ]
-    )[:-1]
+    angles = [
+        np.linspace(a, b, count + 1)[1:]
+        for (a, b), count in zip(itertools.pairwise(stations), counts, strict=True)
+    ]
+    return np.concatenate(angles)[:-1], before + fine // 2
 
 
 def _pad_half_angle(ring_ratio: float, flat: float, gap: float, cells: int) -> float:
@@ -227,47 +222,66 @@ def without_corners(lattice: Lattice, dropped: NDArray[np.bool_]) -> Lattice:
     """
     corner = lattice.strips != np.roll(lattice.strips, 1, axis=1)
     kept = ~dropped
+    spokes = lattice.domain.spokes
     for side in range(2):
-        for edge in range(len(lattice.edges)):
+        for edge in range(len(spokes)):
             flat = np.flatnonzero(lattice.strips[side] == lattice.flat(side, edge))
             kept[side, [*flat, *((flat + 1) % len(lattice.planes))]] = True
     return _with_corners(
-        lattice.ring_ratio,
-        lattice.edges,
+        spokes,
+        lattice.domain.ring_ratio,
         lattice.planes,
         lattice.edge_planes,
+        lattice.flats,
+        lattice.middles,
         corner & kept,
-        lattice.nodes.shape[1] - 1,
+        lattice.nodes.shape[2] - 1,
     )
 
 
 def _with_corners(
+    spokes: Spokes,
     ring_ratio: float,
-    edges: Floats,
     planes: Floats,
     edge_planes: Ints,
+    flats: Ints,
+    middles: Ints,
     corner: NDArray[np.bool_],
     cells: int,
 ) -> Lattice:
-    """Number the strips between corners, and place the nodes."""
+    """Let the outside lean where it must, number the strips between corners, place the nodes."""
+    ends, bends = np.repeat(planes[:, None], 2, axis=1), []
+    for edge in np.flatnonzero(_leaning(spokes)).tolist():
+        after, start = (edge + 1) % len(flats), flats[edge, 1]
+        between, middle = slice(start, flats[after, 0] + 1), int(middles[edge] - start)
+        mean = float(spokes.slopes[edge] + spokes.slopes[after]) / 2
+        level = lean(ends[between], corner[1, between], middle)
+        bends += [(planes[start + n], mean) for n in level]
+    domain = Domain(
+        spokes,
+        ring_ratio,
+        planes[corner[0]],
+        ends[corner[1]],
+        np.array(bends).reshape(-1, 2),
+    )
     strips = np.cumsum(corner, axis=1, dtype=np.int64)
     strips[strips == strips[:, -1:]] = 0
-    radii = [
-        radius * _chord(planes, planes[corner[side]])
-        for side, radius in enumerate((ring_ratio - 0.5, ring_ratio + 0.5))
-    ]
-    share = np.linspace(0, 1, cells + 1)
-    radius = (1 - share) * radii[0][:, None] + share * radii[1][:, None]
-    nodes = np.empty((len(planes), cells + 1, cells + 1, 3))
-    nodes[..., 0] = (radius * np.cos(planes)[:, None])[..., None]
-    nodes[..., 1] = (radius * np.sin(planes)[:, None])[..., None]
-    nodes[..., 2] = np.linspace(-0.5, 0.5, cells + 1)
-    return Lattice(ring_ratio, edges, planes, edge_planes, strips, nodes)
-
-
-def _chord(angles: Floats, corners: Floats) -> Floats:
-    """Distance of the polygon with these corners on the unit circle, in each direction."""
-    around = np.concatenate([corners[-1:] - 2 * np.pi, corners, corners[:1] + 2 * np.pi])
-    after = np.searchsorted(around, angles, side="right")
-    low, high = around[after - 1], around[after]
-    return np.asarray(np.cos((high - low) / 2) / np.cos(angles - (high + low) / 2))
+    height = np.linspace(0, 1, cells + 1)
+    # In plan as x + iy, as seen from each plane: nodes that do not lean are real there.
+    low, high = (domain.outside(ends) * np.exp(1j * (ends - planes[:, None]))).T
+    outside = low[:, None] + height * (high - low)[:, None]
+    # Halfway up, cells across the ring are no longer than across its height.
+    across = np.abs(low + high).max() / 2 - ring_ratio + 0.5
+    share = np.linspace(0, 1, round(cells * float(across)) + 1)
+    upright = outside
+    if domain.leans:
+        # Only the nodes on the outside lean: cells within stay as good as they can be.
+        around = np.exp(1j * planes)[:, None] + 0 * height
+        points = np.stack([around.real, around.imag, around.real * 0 + height - 0.5], axis=-1)
+        upright = 1 - domain.beyond(points.reshape(-1, 3)).reshape(outside.shape) + 0j
+    plan = (1 - share)[:, None] * domain.hole(planes)[:, None, None]
+    plan = plan + share[:, None] * upright[:, None]
+    plan[:, -1] = outside
+    plan = plan * (np.cos(planes) + 1j * np.sin(planes))[:, None, None]
+    nodes = np.stack([plan.real, plan.imag, np.broadcast_to(height - 0.5, plan.shape)], axis=-1)
+    return Lattice(domain, planes, edge_planes, flats, middles, strips, ends, nodes)

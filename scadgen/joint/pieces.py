@@ -8,6 +8,7 @@ edge, which gives the two halves.
 from __future__ import annotations
 
 import itertools
+import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 
@@ -16,29 +17,28 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from scadgen.errors import GeometryError
+from scadgen.joint.footing import LEDGE, SPLIT, TUBE, with_footing
 from scadgen.joint.lattice import Lattice
 from scadgen.joint.surface import Surface, simplify
-from scadgen.joint.walls import Facet, Key, Wedge, facet_of_face
+from scadgen.joint.walls import Facet, Feature, Wedge, facet_of_face
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["PAD", "SPLIT", "TUBE", "halves"]
+__all__ = ["LEDGE", "PAD", "SPLIT", "TUBE", "halves"]
 
-#: The facets where the tube stands, where the halves part, and opposite the tube.
-TUBE: Facet = ("outer", 0)
-SPLIT: Facet = ("split", 0)
+#: The facet opposite the tube.
 PAD: Facet = ("inner", 0)
 
 _Index = tuple[int, int, int]
 
 #: A vertex of the cut-open surface: its key, and the side of the cut for those on it.
-_Sided = tuple[Key, int]
+_Sided = tuple[Feature, int]
 
 
 def halves(
     lattice: Lattice,
     labels: Ints,
     walls: Sequence[Wedge],
-    position: dict[Key, Floats],
+    position: dict[Feature, Floats],
     edge: int,
 ) -> tuple[Surface, Surface]:
     """Half A (counter-clockwise of its edge) and half B of one connector.
@@ -74,7 +74,17 @@ def halves(
     )
     number = {name: n for n, name in enumerate(names)}
     points = [lattice.nodes[k[2:]] if k[0] == "node" else position[k] for k, _ in names]
-    return _parted(polygons, sides, number, np.array(points), float(lattice.edges[edge]))
+    spokes = lattice.domain.spokes
+    parts = _parted(polygons, sides, number, np.array(points), float(spokes.azimuths[edge]))
+    if spokes.level(edge):
+        return parts
+    slope, (x, y, z) = float(spokes.slopes[edge]), lattice.domain.tube_face(edge).at
+    middle = np.array([math.hypot(x, y), 0.0, z])
+    first, second = (
+        with_footing(part, slope, middle, sign)
+        for part, sign in zip(parts, (1.0, -1.0), strict=True)
+    )
+    return first, second
 
 
 class _Cut:
@@ -93,10 +103,11 @@ class _Cut:
         here = mine.any(axis=(1, 2))
         self._planes = np.flatnonzero(here | np.roll(here, -1)).tolist()
         self._mine: list[list[list[bool]]] = mine.tolist()
+        self._firsts: list[list[int]] = lattice.firsts.tolist()
         # Of the inner side's flat faces and the outer's: how many there are, and the connector's.
         self._faces = [(int(lattice.strips[n].max()) + 1, lattice.flat(n, edge)) for n in (0, 1)]
 
-    def _sided(self, key: Key, cell: int) -> _Sided:
+    def _sided(self, key: Feature, cell: int) -> _Sided:
         kind, axis, i, _, _ = key
         on_plane = i == self._plane and (
             kind == "node" or (kind == "edge" and axis != 0) or (kind == "face" and axis == 0)
@@ -152,7 +163,7 @@ class _Cut:
         even = (axis - normal) % 3 == 1
         return (out == inside) != even
 
-    def _part_of_edge(self, axis: int, index: _Index) -> tuple[Key, Key] | None:
+    def _part_of_edge(self, axis: int, index: _Index) -> tuple[Feature, Feature] | None:
         """The ends of that part of a lattice edge that carries the label."""
         i, j, k = index
         if axis == 0:
@@ -164,11 +175,17 @@ class _Cut:
         mine, mine_after = self._mine[index[0]][index[1]][index[2]], self._mine[i][j][k]
         if not (mine or mine_after):
             return None
-        middle: Key = ("edge", axis, *index)
-        return (
-            ("node", 0, *index) if mine else middle,
-            ("node", 0, i, j, k) if mine_after else middle,
-        )
+        start, stop = self._node(*index), self._node(i, j, k)
+        if start == stop:
+            return None
+        middle: Feature = ("edge", axis, *index)
+        return start if mine else middle, stop if mine_after else middle
+
+    def _node(self, i: int, j: int, k: int) -> Feature:
+        """A node by its first index: where the outside leans several may be in one place."""
+        if j == len(self._mine[0]) - 1 and k in (0, len(self._mine[0][0]) - 1):
+            i = self._firsts[i][k > 0]
+        return "node", 0, i, j, k
 
     def _domain_edges(self) -> Iterator[tuple[int, _Index, list[tuple[int, _Index, int]]]]:
         """Lattice edges between two facets, near the label: axis, index, faces.

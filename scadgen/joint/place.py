@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from scadgen.joint.curve import SiteCurve, distances, slopes
 from scadgen.joint.lattice import Lattice
-from scadgen.joint.walls import Key
+from scadgen.joint.walls import Feature
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["beside_walls", "place"]
@@ -47,7 +47,7 @@ def beside_walls(lattice: Lattice, curves: Sequence[SiteCurve]) -> Floats:
 
 
 def place(
-    lattice: Lattice, curves: Sequence[SiteCurve], far: Floats, keys: Sequence[Key]
+    lattice: Lattice, curves: Sequence[SiteCurve], far: Floats, keys: Sequence[Feature]
 ) -> Floats:
     """Positions of vertices.
 

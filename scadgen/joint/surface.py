@@ -15,6 +15,7 @@ from scipy.spatial import cKDTree
 from scadgen.errors import GeometryError, InvariantError
 from scadgen.joint.walls import Facet
 from scadgen.solid.affine import Floats, Ints
+from scadgen.solid.vectors import cross
 
 __all__ = ["Surface", "chain", "half_turn", "join", "simplify"]
 
@@ -125,12 +126,23 @@ def simplify(surface: Surface) -> Surface:
     for sides in surface.outlines.values():
         facets_at[sides[:, 0]] += 1
     facets_at[surface.walls] = 0
+    for sides in surface.outlines.values():
+        facets_at[_turns(surface.points, sides)] = 0
     spare = set(np.flatnonzero(facets_at == 2).tolist())
     outlines = {}
     for facet in surface.outlines:
         loops = [[v for v in loop if v not in spare] for loop in surface.loops(facet)]
         outlines[facet] = _sides(loops)
     return _compact(surface.points, surface.walls, outlines)
+
+
+def _turns(points: Floats, sides: Ints) -> Ints:
+    """The vertices at which an outline turns."""
+    after = dict(sides.tolist())
+    middle = sides[:, 1]
+    ahead = points[[after[vertex] for vertex in middle.tolist()]] - points[middle]
+    behind = points[middle] - points[sides[:, 0]]
+    return np.asarray(middle[np.linalg.norm(cross(behind, ahead), axis=1) > _SAME])
 
 
 def _sides(loops: Iterable[list[int]]) -> Ints:

@@ -26,7 +26,12 @@ _ROUNDING = 1e-9
 
 
 def belongs(
-    curves: Sequence[SiteCurve], own: int, low: Floats, high: Floats, margin: float
+    curves: Sequence[SiteCurve],
+    own: int,
+    low: Floats,
+    high: Floats,
+    margin: float,
+    axes: Floats | None = None,
 ) -> bool:
     """Whether every point of a box is in one cell, and a margin away from its walls.
 
@@ -37,12 +42,15 @@ def belongs(
     own
         The cell's curve.
     low, high
-        Corners of the box, ``(3,) float``, with the curve's edge turned to +x; it may be flat.
+        Corners of the box, ``(3,) float``, along its axes; it may be flat.
     margin
         Distance to the walls, in sides, at least zero.
+    axes
+        ``(3, 3) float``: rows are the directions of the box's sides; by default the curve's edge,
+        what is counter-clockwise of it, and up.
     """
     middle, extent = ((low + high) / 2)[None], (high - low) / 2
-    turn = curves[own].turn
+    turn = curves[own].turn if axes is None else axes
     for _ in range(_HALVINGS):
         needed = 2 * (margin + float(np.linalg.norm(extent)))
         lead = _lead(curves, own, middle @ turn, needed)
@@ -58,8 +66,8 @@ def belongs(
 
 
 def share(curves: Sequence[SiteCurve], own: int, points: Floats) -> float:
-    """Share of points, with the curve's edge turned to +x, that are in its cell."""
-    return float((nearest_curve(curves, points @ curves[own].turn) == own).mean())
+    """Share of points that are in a curve's cell."""
+    return float((nearest_curve(curves, points) == own).mean())
 
 
 def _lead(curves: Sequence[SiteCurve], own: int, points: Floats, most: float) -> Floats:
@@ -89,7 +97,7 @@ def arm(lattice: Lattice, curves: Sequence[SiteCurve], edge: int, walls: Floats)
     thickness
         In sides.
     """
-    directions = lattice.edges
+    directions = lattice.domain.spokes.azimuths
     gap = (directions[edge] - directions[edge - 1] - _ROUNDING) % (2 * np.pi) + _ROUNDING
     ahead = (lattice.planes - directions[edge]) % (2 * np.pi)
     behind = (directions[edge] - lattice.planes) % (2 * np.pi)

@@ -15,8 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scadgen.joint.curve import SiteCurve, nearest_curve
+from scadgen.joint.domain import OUTSIDE, Domain
 from scadgen.joint.lattice import Lattice
-from scadgen.joint.walls import Facet, Key, Wedge
+from scadgen.joint.walls import Facet, Feature, Wedge
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["corners_in_the_way", "merge_short_sides"]
@@ -50,9 +51,9 @@ def corners_in_the_way(lattice: Lattice, curves: Sequence[SiteCurve]) -> NDArray
     """
     height = np.linspace(-0.5, 0.5, _LEVELS)
     dropped = []
-    for radius in (lattice.ring_ratio - 0.5, lattice.ring_ratio + 0.5):
+    for side in (0, 1):
         beside, slid = (
-            _labels_beside(lattice, curves, radius, room, levels)
+            _labels_beside(lattice.lines(side, levels), curves, room)
             for room, levels in ((_ROOM, height), (_SLIDE, height[[0, -1]]))
         )
         passed = (beside[:, 0] != beside[:, 1]).mean(axis=1) > _ALONG
@@ -63,20 +64,16 @@ def corners_in_the_way(lattice: Lattice, curves: Sequence[SiteCurve]) -> NDArray
     return np.stack(dropped)
 
 
-def _labels_beside(
-    lattice: Lattice, curves: Sequence[SiteCurve], radius: float, room: float, height: Floats
-) -> Ints:
-    """Nearest curves to either side of each plane, at some heights, ``(planes, 2, heights)``."""
-    angle = lattice.planes[:, None] + np.array([-room, room]) / radius
-    points = np.empty((*angle.shape, len(height), 3))
-    points[..., 0] = radius * np.cos(angle)[..., None]
-    points[..., 1] = radius * np.sin(angle)[..., None]
-    points[..., 2] = height
-    return nearest_curve(curves, points)
+def _labels_beside(lines: Floats, curves: Sequence[SiteCurve], room: float) -> Ints:
+    """Nearest curves to either side of points ``(n, heights, 3)``, ``(n, 2, heights)``."""
+    plan = (lines[..., 0] + 1j * lines[..., 1])[:, None]
+    plan = plan * np.exp(1j * np.array([-room, room])[:, None] / np.abs(plan))
+    height = np.broadcast_to(lines[:, None, :, 2], plan.shape)
+    return nearest_curve(curves, np.stack([plan.real, plan.imag, height], axis=-1))
 
 
 def merge_short_sides(
-    walls: Sequence[Wedge], position: dict[Key, Floats], cell: float
+    walls: Sequence[Wedge], position: dict[Feature, Floats], cell: float, domain: Domain
 ) -> list[Wedge]:
     """Merge vertices that stand too close together, shortest sides first.
 
@@ -88,24 +85,28 @@ def merge_short_sides(
         Where their vertices are; those that stay may be moved here.
     cell
         Length of a cell's side.
+    domain
+        What the walls divide, and may not leave.
 
     Returns
     -------
     walls
         The polygons on the vertices that are left, without those that vanished.
     """
-    around: dict[Key, set[int]] = defaultdict(set)
+    around: dict[Feature, set[int]] = defaultdict(set)
     for number, wedge in enumerate(walls):
         for corner in wedge.corners:
             around[corner].add(number)
     merged = list(walls)
-    into: dict[Key, Key] = {}
+    into: dict[Feature, Feature] = {}
     for side in _short_sides(walls, position, cell):
         ends = {_last(into, key) for key in side}
         if len(ends) < 2:
             continue
         gone, kept = sorted(ends, key=lambda key: (_RANK[key[0]], key))
-        if _may_merge(merged, around, gone, kept):
+        if _may_merge(merged, around, gone, kept) and not (
+            domain.leans and _leaves(merged, around, position, domain, (gone, kept))
+        ):
             into[gone] = kept
             if _RANK[gone[0]] == _RANK[kept[0]]:
                 position[kept] = (position[gone] + position[kept]) / 2
@@ -116,7 +117,7 @@ def merge_short_sides(
     return [wedge for wedge in merged if len(wedge.corners) > 2]
 
 
-def _last(into: dict[Key, Key], key: Key) -> Key:
+def _last(into: dict[Feature, Feature], key: Feature) -> Feature:
     """The vertex that a vertex has been merged into, or itself."""
     while key in into:
         key = into[key]
@@ -124,8 +125,8 @@ def _last(into: dict[Key, Key], key: Key) -> Key:
 
 
 def _short_sides(
-    walls: Sequence[Wedge], position: dict[Key, Floats], cell: float
-) -> list[tuple[Key, Key]]:
+    walls: Sequence[Wedge], position: dict[Feature, Floats], cell: float
+) -> list[tuple[Feature, Feature]]:
     """Sides to merge, shortest first.
 
     Of two sides of the same length at one vertex neither is merged: a half turn of the joint
@@ -147,7 +148,9 @@ def _short_sides(
     return sorted(alone, key=lambda side: (length[side], side))
 
 
-def _may_merge(walls: Sequence[Wedge], around: dict[Key, set[int]], gone: Key, kept: Key) -> bool:
+def _may_merge(
+    walls: Sequence[Wedge], around: dict[Feature, set[int]], gone: Feature, kept: Feature
+) -> bool:
     """Whether the walls stay surfaces that end on their facets if two vertices become one.
 
     That is so if what both touch, vertices as well as facets, they touch along what shrinks:
@@ -185,12 +188,29 @@ def _may_merge(walls: Sequence[Wedge], around: dict[Key, set[int]], gone: Key, k
     return kept in near[0] and near[0] & near[1] <= {v for w in shrinking for v in w.corners}
 
 
-def _facets(walls: Sequence[Wedge], around: dict[Key, set[int]], key: Key) -> set[Facet]:
+def _leaves(
+    walls: Sequence[Wedge],
+    around: dict[Feature, set[int]],
+    position: dict[Feature, Floats],
+    domain: Domain,
+    ends: tuple[Feature, Feature],
+) -> bool:
+    """Whether a wall leaves the domain if one vertex goes into another that is on a facet."""
+    gone, kept = ends
+    near = {v for n in around[gone] for v in _beside(walls[n].corners, gone)} - {kept}
+    on_facets = sorted(v for v in near if v[0] != "cell")
+    if kept[0] == "cell" or not on_facets:
+        return False
+    middles = np.array([(position[v] + position[kept]) / 2 for v in on_facets])
+    return bool((domain.beyond(middles) > OUTSIDE).any())
+
+
+def _facets(walls: Sequence[Wedge], around: dict[Feature, set[int]], key: Feature) -> set[Facet]:
     """The facets that a vertex lies on."""
     return {b[0] for number in around[key] for b in walls[number].borders if key in b[1:]}
 
 
-def _pass_on_borders(walls: list[Wedge], around: dict[Key, set[int]], kept: Key) -> None:
+def _pass_on_borders(walls: list[Wedge], around: dict[Feature, set[int]], kept: Feature) -> None:
     """Give the borders of polygons that vanished to those beyond them."""
     for number in sorted(around[kept]):
         if len(walls[number].corners) > 2:
@@ -207,13 +227,13 @@ def _pass_on_borders(walls: list[Wedge], around: dict[Key, set[int]], kept: Key)
             around[corner].discard(number)
 
 
-def _beside(corners: tuple[Key, ...], key: Key) -> tuple[Key, Key]:
+def _beside(corners: tuple[Feature, ...], key: Feature) -> tuple[Feature, Feature]:
     """The two corners next to one."""
     place = corners.index(key)
     return corners[place - 1], corners[(place + 1) % len(corners)]
 
 
-def _renamed(wedge: Wedge, gone: Key, kept: Key) -> Wedge:
+def _renamed(wedge: Wedge, gone: Feature, kept: Feature) -> Wedge:
     """A polygon with one vertex put in the place of another."""
     corners = [kept if corner == gone else corner for corner in wedge.corners]
     once = tuple(c for n, c in enumerate(corners) if c != corners[n - 1])

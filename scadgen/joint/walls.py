@@ -24,16 +24,16 @@ import numpy as np
 from scadgen.joint.lattice import Lattice
 from scadgen.solid.affine import Ints
 
-__all__ = ["Border", "Facet", "Key", "Wedge", "facet_of_face", "wedges"]
+__all__ = ["Border", "Facet", "Feature", "Wedge", "facet_of_face", "wedges"]
 
 #: A vertex: what it stands for (``node``, ``edge``, ``face``, ``cell``), an axis, an index.
-Key = tuple[str, int, int, int, int]
+Feature = tuple[str, int, int, int, int]
 
 #: A plane of the domain's boundary or of a split: its kind and number.
 Facet = tuple[str, int]
 
 #: A side of a polygon on a facet: the facet, the side's start and end.
-Border = tuple[Facet, Key, Key]
+Border = tuple[Facet, Feature, Feature]
 
 
 class Wedge(NamedTuple):
@@ -53,7 +53,7 @@ class Wedge(NamedTuple):
 
     low: int
     high: int
-    corners: tuple[Key, ...]
+    corners: tuple[Feature, ...]
     borders: tuple[Border, ...]
     sector: int
 
@@ -95,7 +95,7 @@ def wedges(lattice: Lattice, labels: Ints) -> Iterator[Wedge]:
 
 def _around(
     lattice: Lattice, axis: int, index: tuple[int, int, int]
-) -> Iterator[tuple[tuple[Key, ...], tuple[Border, ...], int]]:
+) -> Iterator[tuple[tuple[Feature, ...], tuple[Border, ...], int]]:
     """Polygons through the cells around one lattice edge, counter-clockwise from its end.
 
     The four cells around the edge, and the four faces between them, are walked in a circle;
@@ -121,9 +121,9 @@ def _around(
     ]
     first = next(n for n, (_, _, facet) in enumerate(circle) if facet)
     flat = len({facet for _, _, facet in circle if facet}) == 1
-    middle: tuple[Key, ...] = () if flat else (("edge", axis, *index),)
+    middle: tuple[Feature, ...] = () if flat else (("edge", axis, *index),)
     _, end, end_facet = circle[first]
-    run: list[Key] = []
+    run: list[Feature] = []
     for cell, face, facet in circle[first + 1 :] + circle[: first + 1]:
         if cell:
             run.append(cell)
@@ -145,7 +145,7 @@ def _is_inside(lattice: Lattice, axis: int, index: tuple[int, int, int]) -> bool
     )
 
 
-def _borders(corners: tuple[Key, ...], first: Facet, last: Facet) -> tuple[Border, ...]:
+def _borders(corners: tuple[Feature, ...], first: Facet, last: Facet) -> tuple[Border, ...]:
     """Sides of a polygon on facets: it starts on `first`; its last face lies on `last`."""
     if corners[-1][0] == "face":
         return ((first, corners[-1], corners[0]),)
@@ -160,14 +160,16 @@ def _moved(
     return i % len(lattice.planes), j, k
 
 
-def _cell(lattice: Lattice, index: tuple[int, int, int]) -> Key | None:
+def _cell(lattice: Lattice, index: tuple[int, int, int]) -> Feature | None:
     """The cell with this lowest node, if it is in the domain."""
     _, radii, heights, _ = lattice.nodes.shape
     inside = 0 <= index[1] < radii - 1 and 0 <= index[2] < heights - 1
     return ("cell", 0, *index) if inside else None
 
 
-def _face(lattice: Lattice, normal: int, index: tuple[int, int, int]) -> tuple[Key, Facet | None]:
+def _face(
+    lattice: Lattice, normal: int, index: tuple[int, int, int]
+) -> tuple[Feature, Facet | None]:
     """The face square to an axis with this lowest node, and the facet it lies on."""
     limits = lattice.nodes.shape
     inside = all(0 <= index[n] < limits[n] - (n != normal) for n in (1, 2))

@@ -14,7 +14,7 @@ import numpy as np
 
 from scadgen.errors import InputError
 
-__all__ = ["BUILT_IN", "LIMITS", "SHAPE", "Weave", "any_joint", "built_in"]
+__all__ = ["BUILT_IN", "LIMITS", "SHAPE", "SLOPED_ROOM", "Weave", "any_joint", "built_in"]
 
 #: What each weave parameter may be: (low, high).
 LIMITS: Mapping[str, tuple[float, float]] = {
@@ -31,6 +31,9 @@ SHAPE = ("ring_ratio", "span", "amplitude", "bend", "periods")
 
 #: What angles may be off by rounding, in degrees.
 _ROUNDING = 1e-4
+
+#: How much farther from edges that slope walls are.
+SLOPED_ROOM = 1.1
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,10 +94,11 @@ class Weave:
             It is not an object with just the weave's parameters.
         """
         known = {f.name for f in fields(cls)} - {"name"}
+        said = {"name", "comment"}
         wanted = known - {"stretch"}
-        if not isinstance(entries, dict) or not wanted <= set(entries) - {"name"} <= known:
+        if not isinstance(entries, dict) or not wanted <= set(entries) - said <= known:
             msg = f"weave {name}: must be a JSON object with {', '.join(sorted(wanted))}"
-            if isinstance(entries, dict) and (strange := set(entries) - known - {"name"}):
+            if isinstance(entries, dict) and (strange := set(entries) - known - said):
                 msg += f", not {', '.join(sorted(map(str, strange)))}"
             raise InputError(msg)
         return cls(**{key: entries[key] for key in known & set(entries)}, name=name)
@@ -157,7 +161,7 @@ def built_in(valence: int, key: str) -> Weave:
     return BUILT_IN[name]
 
 
-def any_joint(least_gap: float) -> Weave:
+def any_joint(least_gap: float, *, sloped: bool = False) -> Weave:
     """The weave of joints whose gaps differ; see ``docs/geometry.md``, "Any joint".
 
     The ring is so wide that the smallest gap, or 90 degrees, is as long as the stretch that
@@ -169,6 +173,9 @@ def any_joint(least_gap: float) -> Weave:
     ----------
     least_gap
         Smallest angle between two neighbouring edges, in radians.
+    sloped
+        Whether edges slope: their tubes stand farther out, so that neighbours' arms have to end
+        farther from them.
 
     Raises
     ------
@@ -185,6 +192,7 @@ def any_joint(least_gap: float) -> Weave:
     rows = (np.interp(degrees, _ANY[:, 0], column) for column in _ANY[:, 1:].T)
     span, amplitude, curl, periods, stretch = (round(float(value), 3) for value in rows)
     woven = min(least_gap, math.radians(_ANY[-1, 0]))
-    ring = math.ceil(100 * stretch / woven - 1e-6) / 100
+    room = SLOPED_ROOM if sloped else 1.0
+    ring = math.ceil(100 * room * stretch / woven - 1e-6) / 100
     bend = max(0.0, round(1 - curl * ring, 3))
-    return Weave(ring, span, amplitude, bend, periods, stretch=ring * woven, name="any")
+    return Weave(ring, span, amplitude, bend, periods, stretch=ring * woven / room, name="any")

@@ -11,7 +11,6 @@ import shapely
 from numpy.typing import NDArray
 
 from scadgen.frame.graph import Frame
-from scadgen.frame.planarity import where
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["Apart"]
@@ -64,10 +63,16 @@ class Apart:
         scale, what, vertex, other, far = max(found)
         meant = " (a larger --tolerance joins ends that are repaired)" if far < _MEANT else ""
         return (
-            f"vertex {vertex} at {where(self.frame.vertices[vertex])}: {what} {other} is "
+            f"{self.frame.called_vertex(vertex)}: {self._called(what, other)} is "
             f"{far:.4g} mm away{meant}, {(scale - 1) * far:.4g} mm too near for the joint's ring "
             f"with a side of {side:g} mm"
         )
+
+    def _called(self, what: str, number: int) -> str:
+        if what == "vertex":
+            return self.frame.called_vertex(number)
+        ends = self.frame.edges[number]
+        return self.frame.called.short(number, ends, self.frame.vertices[ends])
 
     def _near(self, side: float) -> Iterator[tuple[str, Ints, Ints, Floats, Floats]]:
         """What is too near to vertices: its name, numbers, what is needed and what there is."""

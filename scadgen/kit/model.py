@@ -10,18 +10,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from scadgen.element.squares import Key
+from scadgen.errors import InvariantError
 from scadgen.frame.catalogue import NamedTiling
 from scadgen.frame.graph import Frame
 from scadgen.frame.keys import Refused
 from scadgen.frame.placement import Placement
 from scadgen.interlock.path import Path
 from scadgen.kit.cells import Cells
+from scadgen.kit.live import PARAMETERS
 from scadgen.solid.affine import AffineSolid, Range
 from scadgen.solid.pose import Pose
 
 __all__ = [
     "DENSITIES",
-    "PART_ROLES",
     "RIMS",
     "Joint",
     "Kit",
@@ -44,9 +45,6 @@ DENSITIES: Mapping[str, float] = {
 
 #: What is done where a joint at the rim lacks edges of an inner one.
 RIMS = ("caps", "open")
-
-#: What a part is for.
-PART_ROLES = ("element", "connector", "half", "peg", "tube")
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +80,7 @@ class Part(AffineSolid):
     Parameters
     ----------
     role
-        One of `PART_ROLES`.
+        What it is for; one of `roles.PART_ROLES`.
     ends
         What it ends in: near and far end of an element, the one of a connector, a half or a
         loose peg, none of a tube.
@@ -93,6 +91,21 @@ class Part(AffineSolid):
     role: str
     ends: tuple[PartEnd, ...] = ()
     length: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Put the live parameters in order.
+
+        Raises
+        ------
+        InvariantError
+            It moves with something else.
+        """
+        if others := {*self.coefficients} - {*PARAMETERS}:
+            msg = f"{self.name} moves with live parameters only, not with {min(others)}"
+            raise InvariantError(msg)
+        ordered = {p: self.coefficients[p] for p in PARAMETERS if p in self.coefficients}
+        object.__setattr__(self, "coefficients", ordered)
+        AffineSolid.__post_init__(self)
 
     @classmethod
     def of(

@@ -15,12 +15,13 @@ from scadgen.element.squares import Key
 from scadgen.errors import GeometryError, InvariantError, ScadgenError
 from scadgen.joint.joint import (
     DETAILS,
+    Decomposition,
     FaceError,
-    Joint,
     make_joint,
 )
 from scadgen.joint.pieces import SPLIT
 from scadgen.joint.recede import recede
+from scadgen.joint.spokes import Spokes
 from scadgen.joint.surface import Surface, half_turn
 from scadgen.joint.territory import arm, belongs
 from scadgen.joint.weave import Weave
@@ -103,7 +104,7 @@ class Pieces:
 class _Tried:
     """Pieces on one lattice."""
 
-    joint: Joint
+    joint: Decomposition
     key: Key
     connectors: tuple[Piece, ...]
     halves: Mapping[int, tuple[Piece, Piece]]
@@ -120,15 +121,15 @@ class _Tried:
             connectors=self.connectors,
             halves=self.halves,
             clearance_limit=self.limit,
-            holes=tuple(self._hole(edge) for edge in range(len(made.edges))),
+            holes=tuple(self._hole(edge) for edge in range(len(made.spokes))),
             arm=min(arm(made.lattice, made.curves, edge, made.walls) for edge in edges),
-            volume=made.lattice.volume(),
+            volume=made.lattice.domain.volume(),
             extra=self.extra,
         )
 
     def _hole(self, edge: int) -> float:
         outline = self.joint.lattice.nodes[:, 0, 0, :2]
-        turn = float(self.joint.edges[edge])
+        turn = float(self.joint.spokes.azimuths[edge])
         c, s = math.cos(turn), math.sin(turn)
         outline = outline @ np.array([[c, -s], [s, c]])
         ends = np.roll(outline, -1, axis=0)
@@ -173,7 +174,7 @@ def best_pieces(
     refusal: ScadgenError | None = None
     for extra in _LATTICES:
         try:
-            made = make_joint(directions, weave, DETAILS[level], extra, keys)
+            made = make_joint(Spokes.flat(directions), weave, DETAILS[level], extra, keys)
             found = _tried(made, style, extra, keys, bored=bored)
         except FaceError:
             raise
@@ -195,7 +196,9 @@ def best_pieces(
     raise GeometryError(msg)
 
 
-def _tried(made: Joint, style: str, extra: int, keys: Sequence[int], *, bored: bool) -> _Tried:
+def _tried(
+    made: Decomposition, style: str, extra: int, keys: Sequence[int], *, bored: bool
+) -> _Tried:
     """The pieces of a joint, and the clearance up to which they are sound."""
     key = _key(made, style, keys, bored=bored)
     firsts = sorted({edge for edge, _ in made.alike})
@@ -256,7 +259,7 @@ def _limit(solid: AffineSolid, key: Key) -> float:
     return _TRIED * safe_share(start, way, solid.triangles, solid.facets)
 
 
-def _key(made: Joint, style: str, keys: Sequence[int], *, bored: bool) -> Key:
+def _key(made: Decomposition, style: str, keys: Sequence[int], *, bored: bool) -> Key:
     """The window in which a socket has room inside each connector that is split.
 
     Raises
@@ -264,11 +267,11 @@ def _key(made: Joint, style: str, keys: Sequence[int], *, bored: bool) -> Key:
     GeometryError
         There is none.
     """
-    lattice = made.lattice
-    start, pad = lattice.tube_start, lattice.pad
+    domain = made.lattice.domain
+    start, (pad, half_width) = float(domain.flats.distance[0]), domain.pad(0)
     through = bored or style == "loose"
     best = (0.0, 0.0)
-    for depth, window in _windows(start - pad, lattice.pad_half_width, through=through):
+    for depth, window in _windows(start - pad, half_width, through=through):
         if best[0] >= _DEPTH or (depth, window) <= best:
             continue
         low = np.array([start - depth, -window, -window])

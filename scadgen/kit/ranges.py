@@ -1,4 +1,4 @@
-"""What the live parameters may be, each with its reason.
+"""What any live parameter may be: limits that parts have in common, and how values are checked.
 
 Every bound is linear in the other parameters; the reasons it is safe are in
 ``docs/geometry.md``, "Ranges".
@@ -13,7 +13,7 @@ from scadgen.element.squares import Key
 from scadgen.errors import InputError
 from scadgen.solid.affine import Linear, Range
 
-__all__ = ["LONGEST", "SIDE", "TUBE", "WALL", "check_values", "edge_range", "ranges", "span"]
+__all__ = ["LONGEST", "SIDE", "TUBE", "WALL", "check_values", "edge_range", "span"]
 
 #: Longest that an edge may be, in mm.
 LONGEST = 2000.0
@@ -29,59 +29,6 @@ SIDE = Range("side", Linear({}, 5.0), Linear({}, 100.0), "thinner walls do not p
 
 #: What rounding of decimal input may take a value past its bound, in mm.
 _SLACK = 1e-9
-
-
-def ranges(key: Key, clearance_limit: float, hole: float) -> tuple[Range, ...]:
-    """The range of every live parameter of a kit but the edge length.
-
-    Parameters
-    ----------
-    key
-        The key of its joints.
-    clearance_limit
-        Clearance up to which connectors and halves are proven sound, in sides.
-    hole
-        Free width of the ring's hole along the key's edge, in sides.
-    """
-    found = [
-        SIDE,
-        Range(
-            "clearance",
-            Linear({}),
-            Linear({"side": clearance_limit}),
-            "wider, the walls of the connectors would turn over",
-        ),
-        Range("peg_clearance", Linear({}), Linear({"side": 0.1}), "wider, the peg would not hold"),
-        Range(
-            "peg_width",
-            Linear({"side": 0.15}),
-            Linear({"side": 2 * (key.window - WALL), "peg_clearance": -2.0}),
-            "the peg breaks, or the socket's walls do",
-        ),
-        Range(
-            "peg_chamfer",
-            Linear({"side": 0.01}),
-            Linear({"peg_width": 0.25}),
-            "the peg's tip keeps half its width",
-        ),
-        *(_fixed(key) if key.style == "fixed" else _loose(key, hole)),
-    ]
-    if key.bored:
-        found += [
-            Range(
-                "bore",
-                Linear({"side": 0.05, "clearance": 1.0}),
-                Linear({"peg_width": 1.0, "side": -4 * WALL}),
-                "the bore leaves a groove in each half, and runs through the pegs",
-            ),
-            Range(
-                "peg_chamfer",
-                Linear({"side": 0.01}),
-                Linear({"peg_width": 0.5, "bore": -0.5, "side": -WALL}),
-                "the bore leaves the peg's tip a wall",
-            ),
-        ]
-    return tuple(found)
 
 
 def edge_range(ends: Iterable[tuple[Key, bool]], times: float) -> Range:
@@ -106,30 +53,6 @@ def edge_range(ends: Iterable[tuple[Key, bool]], times: float) -> Range:
         Linear({}, LONGEST / times),
         "two joints need room, and half a side of tube between them",
     )
-
-
-def _fixed(key: Key) -> list[Range]:
-    depth = key.tube_start - key.pad - 2 * WALL if key.bored else key.depth - WALL
-    return [
-        Range(
-            "peg_length",
-            Linear({"side": 0.25}),
-            Linear({"side": depth, "peg_clearance": -1.0}),
-            "the peg slips out, or its socket breaks into a wall",
-        ),
-    ]
-
-
-def _loose(key: Key, hole: float) -> list[Range]:
-    through = key.tube_start - key.pad
-    return [
-        Range(
-            "peg_length",
-            Linear({"side": through + 0.2, "clearance": 1.0}),
-            Linear({"side": hole - WALL, "peg_clearance": -2.0}),
-            "the peg reaches from the ring's hole into the tube, and fits into the hole",
-        ),
-    ]
 
 
 def span(limits: Iterable[Range], name: str, values: Mapping[str, float]) -> tuple[float, float]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -15,18 +14,14 @@ from scadgen.frame.placement import KEYS
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.weave import Weave
 from scadgen.kit.cells import check_cells
+from scadgen.kit.live import LIVE, PARAMETERS, USUAL_SIDE
 from scadgen.kit.model import RIMS
+from scadgen.kit.parameter import Settings, Tightest
 from scadgen.kit.pieces import Pieces
-from scadgen.kit.ranges import WALL, check_values
-from scadgen.solid.affine import PARAMETERS, Range
+from scadgen.kit.ranges import check_values
+from scadgen.solid.affine import Range
 
-__all__ = ["CLEARANCE", "Request", "default_values", "peg_length"]
-
-#: Gap between mating faces that is not said, in mm.
-CLEARANCE = 0.2
-
-#: How far a loose peg reaches into the tube, in sides.
-_INTO_TUBE = 0.35
+__all__ = ["Request", "default_values"]
 
 #: Rows and columns that are not said: of regular joints, and of others.
 _FEW, _MORE = 2, 3
@@ -158,7 +153,7 @@ class Request:
     @property
     def side(self) -> float:
         """Side of the tubes, in mm."""
-        return self.values.get("side", 10.0)
+        return self.values.get("side", USUAL_SIDE)
 
     @property
     def bored(self) -> bool:
@@ -176,38 +171,6 @@ def default_values(
     InputError
         The side is not in its range; all other defaults are shares of it.
     """
-    side = request.side
-    check_values([r for r in limits if r.parameter == "side"], {**request.values, "side": side})
-    clearance = request.values.get("clearance", CLEARANCE)
-    gap = request.values.get("peg_clearance", clearance)
-    keys = [one.key for one in pieces]
-    width = min(0.4 * side, 2 * (min(key.window for key in keys) - WALL) * side - 2 * gap)
-    if request.key == "fixed":
-        length = min(0.6 * side, (min(key.depth for key in keys) - WALL) * side - gap)
-    else:
-        through = max(key.tube_start - key.pad for key in keys)
-        length = peg_length(through, side, clearance)
-        length = min(length, (min(one.key_hole for one in pieces) - WALL) * side - 2 * gap)
-    values = {
-        "side": side,
-        "edge_length": 0.0,
-        "clearance": clearance,
-        "peg_width": math.floor(10 * width) / 10,
-        "peg_length": math.floor(10 * length) / 10,
-        "peg_clearance": gap,
-        "peg_chamfer": round(0.05 * side, 9),
-    }
-    return values | {name: v for name, v in request.values.items() if name != "bore" or v > 0}
-
-
-def peg_length(through: float, side: float, clearance: float) -> float:
-    """Length of a loose peg that is not said, before it is rounded down to 0.1 mm.
-
-    Parameters
-    ----------
-    through
-        Its longest way through the halves, in sides.
-    side, clearance
-        In mm.
-    """
-    return (through + _INTO_TUBE) * side + clearance
+    values = {**request.values, "side": request.side}
+    check_values([r for r in limits if r.parameter == "side"], values)
+    return Settings(LIVE, Tightest.of(pieces), values).all()

@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 from scadgen.errors import GeometryError
 from scadgen.frame.graph import Frame
 from scadgen.frame.kinds import Kinds
-from scadgen.frame.planarity import more, where
+from scadgen.frame.planarity import more
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.lattice import make_lattice
+from scadgen.joint.spokes import Spokes
 from scadgen.kit.apart import Apart
+from scadgen.kit.live import CLEARANCE, peg_length
 from scadgen.kit.ranges import SIDE, TUBE
-from scadgen.kit.request import CLEARANCE, peg_length
 from scadgen.solid.affine import Floats
 
 __all__ = ["Room", "reaches", "room"]
@@ -100,11 +101,8 @@ class Room:
         missing = self.missing(side)
         if missing.any():
             count, edge = int(np.count_nonzero(missing)), int(missing.argmax())
-            first, second = (
-                f"vertex {v} at {where(self.frame.vertices[v])}" for v in self._ends(edge)
-            )
             msg = (
-                f"edge {edge} from {first} to {second}, {self.frame.lengths[edge]:.4g} mm "
+                f"{self.frame.called_edge(edge)}, {self.frame.lengths[edge]:.4g} mm "
                 f"long, is {missing[edge]:.4g} mm too short for its two joints with a side of "
                 f"{side:g} mm{more(count)}; {self.works(side)}"
             )
@@ -145,8 +143,9 @@ def reaches(directions: Iterable[float], ring_ratio: float) -> tuple[float, floa
     GeometryError
         Two tubes would overlap.
     """
-    lattice = make_lattice(tuple(directions), ring_ratio, DETAILS["standard"].cells)
-    return lattice.tube_start, lattice.pad
+    spokes = Spokes.flat(tuple(directions))
+    domain = make_lattice(spokes, ring_ratio, DETAILS["standard"].cells).domain
+    return float(domain.flats.distance[0]), domain.pad(0)[0]
 
 
 def room(

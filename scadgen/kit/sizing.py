@@ -12,7 +12,7 @@ from scadgen.frame.graph import Frame, make_frame
 from scadgen.frame.joints import least_scale
 from scadgen.frame.kinds import Kinds, choose_kinds
 from scadgen.frame.periodic import Block
-from scadgen.frame.planarity import corner, where
+from scadgen.frame.planarity import corner
 from scadgen.frame.sameness import Sameness, sameness
 from scadgen.joint.weave import Weave, any_joint, built_in
 from scadgen.kit.apart import Apart
@@ -153,7 +153,7 @@ def _drawn(request: Request, scale: float = 1.0) -> tuple[Frame, Block | None]:
         raise InvariantError(msg)
     frame = request.frame
     if scale != 1.0:
-        frame = make_frame(frame.name, frame.vertices * scale, frame.edges)
+        frame = make_frame(frame.name, frame.vertices * scale, frame.edges, frame.numbering)
     return frame, None
 
 
@@ -194,9 +194,8 @@ def _check_longest(frame: Frame, side: float) -> None:
     """
     edge = int(frame.lengths.argmax())
     if frame.lengths[edge] > LONGEST:
-        first, second = (f"vertex {v} at {where(frame.vertices[v])}" for v in frame.edges[edge])
         msg = (
-            f"edge {edge} from {first} to {second}, {frame.lengths[edge]:.4g} mm long with a side "
+            f"{frame.called_edge(edge)}, {frame.lengths[edge]:.4g} mm long with a side "
             f"of {side:g} mm, is too long: at most {LONGEST:g} mm works; a smaller side or frame, "
             "or a vertex in its middle helps"
         )
@@ -222,7 +221,10 @@ def _weave(request: Request, frame: Frame, kinds: Kinds, number: int) -> Weave:
 
 
 def _where(frame: Frame, kinds: Kinds, number: int) -> str:
-    """Where the first joint of a kind stands, and its angles."""
-    vertex = int(np.flatnonzero(kinds.kind_of == number)[0])
+    """Where the joint of a kind with the narrowest gap stands, and the angles of the kind."""
+    vertex = min(
+        np.flatnonzero(kinds.kind_of == number).tolist(),
+        key=lambda one: float(frame.gaps(one).min()),
+    )
     gaps = np.degrees(kinds.shape(number).gaps).tolist()
-    return corner(vertex, frame.vertices[vertex], gaps)
+    return corner(frame.called_vertex(vertex), gaps)

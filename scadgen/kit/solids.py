@@ -14,13 +14,13 @@ from functools import cached_property
 
 from scadgen.element.ends import End, connector, connector_end, flat_end, key_end, part, peg
 from scadgen.element.pieces import half
-from scadgen.element.squares import Key
 from scadgen.frame.kinds import Kinds
 from scadgen.kit.elements import Element, ElementEnd, Elements, edge_elements
+from scadgen.kit.live import limits
 from scadgen.kit.model import Part, PartEnd
 from scadgen.kit.named import Named
+from scadgen.kit.parameter import Tightest
 from scadgen.kit.pieces import Pieces
-from scadgen.kit.ranges import edge_range, ranges
 from scadgen.solid.affine import Floats, Ints, Range
 
 __all__ = ["REGULAR", "Solids"]
@@ -77,25 +77,11 @@ class Solids:
     def limits(self) -> tuple[Range, ...]:
         """What the live parameters may be, so that all joints and elements are sound."""
         keys = [one.key for one in self.pieces]
-        start = max(key.tube_start for key in keys)
-        tightest = Key(
-            keys[0].style,
-            keys[0].bored,
-            start,
-            start - max(key.tube_start - key.pad for key in keys),
-            min(key.window for key in keys),
-            min(key.depth for key in keys),
-        )
-        clearance = min(one.clearance_limit for one in self.pieces)
-        hole = min(one.key_hole for one in self.pieces)
-        of_edges = [
-            edge_range([(keys[end.number], self._has_socket(end)) for end in one.ends], one.length)
+        elements = tuple(
+            (tuple((keys[end.number], self._has_socket(end)) for end in one.ends), one.length)
             for one in self._made.values()
-        ]
-        return (
-            *ranges(tightest, clearance, hole),
-            *(limit for n, limit in enumerate(of_edges) if limit not in of_edges[:n]),
         )
+        return limits(Tightest.of(self.pieces, elements))
 
     def _has_socket(self, end: ElementEnd) -> bool:
         """Whether an element's tube has a socket at an end: for a loose peg."""

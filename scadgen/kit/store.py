@@ -34,10 +34,11 @@ from scadgen.kit.entries import (
     read_placement,
     read_pose,
 )
+from scadgen.kit.live import PARAMETERS
 from scadgen.kit.model import Kit, Vertex
 from scadgen.kit.ranges import check_values
 from scadgen.kit.sense import check_sense
-from scadgen.solid.affine import PARAMETERS, Linear, Range
+from scadgen.solid.affine import Linear, Range
 
 __all__ = ["FORMAT", "VERSION", "dumps", "load", "loads", "summary"]
 

@@ -151,11 +151,12 @@ def _kept(means: Means) -> Iterator[Means]:
 
 def _nowhere(kit: Kit, joint: Joint, error: JointError) -> JointError:
     """The error that tells where such a joint stands, and what would help."""
-    vertex = next(n for n, one in enumerate(kit.vertices) if one.joint == joint.name)
-    point = kit.values["edge_length"] * np.array(kit.vertices[vertex].pose.at)
+    number = next(n for n, one in enumerate(kit.vertices) if one.joint == joint.name)
+    x, y = kit.values["edge_length"] * np.array(kit.vertices[number].pose.at[:2])
     gaps = np.diff([*joint.turns, 360.0]).tolist()
+    vertex = f"vertex {number} at ({x:.6g}, {y:.6g})"
     msg = (
-        f"{corner(vertex, point, gaps)}: {error.fault}; with other keys it is refused as "
+        f"{corner(vertex, gaps)}: {error.fault}; with other keys it is refused as "
         "well; other angles help, or --unchecked makes the kit all the same"
     )
     return JointError(msg, error.joint, error.fault)

@@ -10,10 +10,13 @@ import numpy as np
 from scadgen.errors import InputError
 from scadgen.solid.affine import Floats
 
-__all__ = ["arc", "check_count", "flattened", "is_curved", "polyline"]
+__all__ = ["CURVED", "arc", "check_count", "flattened", "is_curved", "polyline"]
 
 #: Coordinates of curves go up to this, in the units of the drawing: their squares are numbers.
 _LARGEST = 1e12
+
+#: What is said of curves begins so.
+CURVED = "shapes with curves"
 
 #: The curves of svgelements.
 _CURVES = ("Arc", "CubicBezier", "QuadraticBezier")
@@ -95,7 +98,7 @@ def flattened(shapes: int, segments: int, within: float) -> tuple[str, ...]:
     if not shapes:
         return ()
     note = (
-        f"shapes with curves: {shapes}, now {segments} segments within {within:g} mm of them; "
+        f"{CURVED}: {shapes}, now {segments} segments within {within:g} mm of them; "
         "a larger --flatten makes fewer and longer ones"
     )
     return (note,)

@@ -7,20 +7,23 @@ import re
 from pathlib import Path
 from typing import Any, NoReturn
 
+import numpy as np
+
 from scadgen.errors import InputError
 from scadgen.frame.graph import Frame
 from scadgen.readers.reading import Read, Reading, checked_scale, from_graph, load
+from scadgen.solid.affine import Ints
 
 __all__ = ["UNITS", "dumps", "read_json"]
 
 #: Millimetres in each unit that ``"unit"`` may name.
 UNITS = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}
 
-_KEYS = {"name", "unit", "vertices", "edges"}
+_KEYS = {"comment", "name", "unit", "vertices", "edges"}
 
 
 def read_json(path: Path, reading: Reading) -> Read:
-    """Read a frame from JSON; beside vertices and edges it may have a name and a unit.
+    """Read a frame from JSON; beside vertices and edges it may have a name, a unit and a comment.
 
     Raises
     ------
@@ -55,13 +58,29 @@ def read_json(path: Path, reading: Reading) -> Read:
 
 
 def dumps(frame: Frame) -> str:
-    """A frame as JSON; read back it equals the frame."""
-    vertices = ",\n  ".join(json.dumps(point) for point in frame.vertices.tolist())
-    edges = ",\n  ".join(json.dumps(edge) for edge in frame.edges.tolist())
+    """A frame as JSON, in the order of the JSON it was read from; read back it equals the frame."""
+    order, of_edges = (
+        _order(numbers, count)
+        for numbers, count in (
+            (frame.called.vertices, len(frame.vertices)),
+            (frame.called.edges, len(frame.edges)),
+        )
+    )
+    vertices = ",\n  ".join(json.dumps(point) for point in frame.vertices[order].tolist())
+    pairs = np.argsort(order)[frame.edges[of_edges]]
+    edges = ",\n  ".join(json.dumps(pair) for pair in pairs.tolist())
     return (
         f'{{\n "name": {json.dumps(frame.name)},\n "unit": "mm",\n'
         f' "vertices": [\n  {vertices}\n ],\n "edges": [\n  {edges}\n ]\n}}\n'
     )
+
+
+def _order(numbers: Ints | None, count: int) -> Ints:
+    """Which comes first, and so on, by numbers that are those of a list; else as they are."""
+    whole = np.arange(count)
+    if numbers is None or not np.array_equal(np.sort(numbers), whole):
+        return whole
+    return np.argsort(numbers)
 
 
 def _refuse(constant: str) -> NoReturn:

@@ -7,7 +7,7 @@ import os
 import stat
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
 
@@ -16,7 +16,8 @@ from numpy.typing import ArrayLike
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import LARGEST, Frame, make_frame, vertex_pairs
-from scadgen.frame.planarity import more, where
+from scadgen.frame.numbering import Numbering, counted, where
+from scadgen.frame.planarity import more
 from scadgen.frame.repair import MOST_SEGMENTS, TOLERANCE, repair
 from scadgen.solid.affine import Floats
 
@@ -41,6 +42,9 @@ _CHUNK = 1 << 20
 #: Shortest names first in a list; more than this many kinds are not listed.
 _KINDS_SHOWN = 8
 
+#: Frames this many times as far from 0 as they are large are said to be far from it.
+_FAR = 100
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reading:
@@ -60,8 +64,10 @@ class Reading:
     repair
         Whether the edges that a file lists by their vertices are repaired, as drawings always
         are.
-    skip_unknown
-        Whether to leave out what cannot be part of a frame.
+    strict
+        Whether to refuse what cannot be part of a frame, instead of leaving it out.
+    centre
+        Whether to move the middle of the frame to 0.
     components
         Whether the frame may have several parts that are not connected.
     shortest
@@ -75,7 +81,8 @@ class Reading:
     flatten: float = 0.05
     split: bool = True
     repair: bool = False
-    skip_unknown: bool = False
+    strict: bool = False
+    centre: bool = False
     components: bool = False
     shortest: float = 0.0
     most: int = MOST_SEGMENTS
@@ -108,10 +115,13 @@ class Read:
         The frame.
     notes
         What was changed or left out on the way, one line each.
+    places
+        ``(p, 2) float``: where it was changed, in mm.
     """
 
     frame: Frame
     notes: tuple[str, ...] = ()
+    places: Floats = field(default_factory=lambda: np.zeros((0, 2)))
 
 
 def load(path: Path, reading: Reading) -> bytes:
@@ -178,8 +188,16 @@ def _start(file: BinaryIO, most: int) -> bytes:
     return bytes(found)
 
 
-def from_graph(name: str, vertices: ArrayLike, edges: ArrayLike, reading: Reading) -> Read:
-    """A frame whose vertices and edges the file lists.
+def from_graph(
+    name: str,
+    vertices: ArrayLike,
+    edges: ArrayLike,
+    reading: Reading,
+    numbering: Numbering | None = None,
+) -> Read:
+    """A frame whose vertices and edges the file lists, and called as it does.
+
+    Repaired ones are called by their places.
 
     Raises
     ------
@@ -188,19 +206,21 @@ def from_graph(name: str, vertices: ArrayLike, edges: ArrayLike, reading: Readin
     """
     points = np.asarray(vertices, dtype=float)
     pairs = vertex_pairs(edges, len(points))
+    called = numbering or counted(len(points), len(pairs))
     if reading.repair:
         alone = len(points) - len(np.unique(pairs))
         notes = (f"vertices without an edge left out: {alone}",) if alone else ()
         return from_segments(name, [points[pairs]], reading, notes)
+    points, moved = _centred(points, reading)
     try:
-        frame = make_frame(name, points, pairs)
+        frame = make_frame(name, points, pairs, called)
     except InputError as error:
         if not (np.abs(points) <= LARGEST).all():
             raise
         msg = f"{error}; --repair mends what it can"
         raise InputError(msg) from None
     _check(frame, reading)
-    return Read(frame)
+    return Read(frame, moved)
 
 
 def from_segments(
@@ -215,12 +235,12 @@ def from_segments(
         edges that are too short.
     """
     if not any(map(len, segments)):
-        msg = "; ".join(["there is nothing in it that could be an edge", *notes[-1:]])
+        msg = "; ".join(["there is nothing in it that could be an edge", *notes])
         raise InputError(msg)
-    joined = np.concatenate(segments)
+    joined, moved = _centred(np.concatenate(segments), reading)
     repaired = repair(name, joined, reading.tolerance, split=reading.split, most=reading.most)
     _check(repaired.frame, reading)
-    return Read(repaired.frame, (*notes, *repaired.notes))
+    return Read(repaired.frame, (*notes, *moved, *repaired.notes), repaired.places)
 
 
 def unknown(kinds: Counter[str], reading: Reading) -> tuple[str, ...]:
@@ -236,8 +256,8 @@ def unknown(kinds: Counter[str], reading: Reading) -> tuple[str, ...]:
     shown = [f"{kinds[kind]} {_printable(kind)}" for kind in sorted(kinds)[:_KINDS_SHOWN]]
     if len(kinds) > _KINDS_SHOWN:
         shown.append(f"{len(kinds) - _KINDS_SHOWN} more kinds")
-    if not reading.skip_unknown:
-        msg = f"{', '.join(shown)}: cannot be part of a frame; --skip-unknown skips it"
+    if reading.strict:
+        msg = f"{', '.join(shown)}: cannot be part of a frame; without --strict it is left out"
         raise InputError(msg)
     return (f"left out: {', '.join(shown)}",)
 
@@ -252,6 +272,29 @@ def _printable(kind: str) -> str:
     return "".join(c if c.isprintable() else "?" for c in kind[:30])
 
 
+def _centred(points: Floats, reading: Reading) -> tuple[Floats, tuple[str, ...]]:
+    """Places around 0 if that is wanted, or if they are too far from it; and what was done.
+
+    Parameters
+    ----------
+    points
+        ``(..., 2) float``, in mm.
+    """
+    flat = points.reshape(-1, 2)
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    far, size = float(np.abs([low, high]).max()), float((high - low).max())
+    # What is no number is refused later, where it is.
+    beyond = LARGEST < far < math.inf and size < LARGEST
+    if not (reading.centre or beyond) or not math.isfinite(far):
+        near = not size or far <= _FAR * size
+        hint = f"its places are up to {far:.4g} mm from 0; --centre moves its middle there"
+        return points, () if near else (hint,)
+    middle = (low + high) / 2
+    done = f"moved by {where(-middle)} mm, its middle to 0"
+    why = f"{done}, as with --centre: its places were up to {far:.4g} mm from it"
+    return points - middle, (why if beyond and not reading.centre else done,)
+
+
 def _check(frame: Frame, reading: Reading) -> None:
     if len(frame.edges) > reading.most:
         msg = f"{len(frame.edges)} edges: at most {reading.most}, unless more are allowed (--most)"
@@ -261,9 +304,8 @@ def _check(frame: Frame, reading: Reading) -> None:
     short = np.flatnonzero(frame.lengths < reading.shortest)
     if len(short):
         worst = int(frame.lengths.argmin())
-        ends = " to ".join(where(frame.vertices[v]) for v in frame.edges[worst])
         msg = (
-            f"edge from {ends} is {frame.lengths[worst]:.4g} mm long: at least "
+            f"{frame.called_edge(worst)} is {frame.lengths[worst]:.4g} mm long: at least "
             f"{reading.shortest:g} mm, {reading.shortest - frame.lengths[worst]:.4g} mm are "
             f"missing{more(len(short))}"
         )

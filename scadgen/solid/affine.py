@@ -19,22 +19,10 @@ from numpy.typing import NDArray
 
 from scadgen.errors import InvariantError
 
-__all__ = ["PARAMETERS", "AffineSolid", "Floats", "Ints", "Linear", "Range"]
+__all__ = ["AffineSolid", "Floats", "Ints", "Linear", "Range"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
-
-#: The live parameters, all lengths in mm, in the order in which files list them.
-PARAMETERS = (
-    "side",
-    "edge_length",
-    "clearance",
-    "peg_width",
-    "peg_length",
-    "peg_clearance",
-    "peg_chamfer",
-    "bore",
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +52,7 @@ class Range:
     Parameters
     ----------
     parameter
-        Its name, one of `PARAMETERS`.
+        Its name.
     low, high
         Bounds, both included, linear in the *other* parameters.
     reason
@@ -102,13 +90,12 @@ class AffineSolid:
     def __post_init__(self) -> None:
         """Check shapes and freeze the arrays."""
         count = {len(c) for c in self.coefficients.values()}
-        if len(count) != 1 or set(self.coefficients) - set(PARAMETERS):
+        if len(count) != 1:
             msg = f"affine solid {self.name}: coefficients do not match its vertices"
             raise InvariantError(msg)
-        ordered = {p: self.coefficients[p] for p in PARAMETERS if p in self.coefficients}
-        for array in (*ordered.values(), self.triangles, self.facets):
+        for array in (*self.coefficients.values(), self.triangles, self.facets):
             array.setflags(write=False)
-        object.__setattr__(self, "coefficients", MappingProxyType(ordered))
+        object.__setattr__(self, "coefficients", MappingProxyType({**self.coefficients}))
 
     @property
     def vertex_count(self) -> int:

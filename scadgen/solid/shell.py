@@ -7,7 +7,7 @@ from collections.abc import Hashable, Mapping, Sequence
 
 import numpy as np
 
-from scadgen.solid.affine import PARAMETERS, AffineSolid, Floats, Ints
+from scadgen.solid.affine import AffineSolid, Floats, Ints
 
 __all__ = ["DECIMALS", "Shell", "Vector"]
 
@@ -95,13 +95,12 @@ class Shell:
 
     def solid(self, name: str) -> AffineSolid:
         """The finished part."""
-        used = {parameter for row in self._rows for parameter in row}
+        used = dict.fromkeys(parameter for row in self._rows for parameter in row)
         coefficients = {
             parameter: np.array([row.get(parameter, _NOTHING) for row in self._rows]).round(
                 DECIMALS
             )
-            for parameter in PARAMETERS
-            if parameter in used
+            for parameter in used
         }
         number: dict[Hashable, int] = {}
         facets = [

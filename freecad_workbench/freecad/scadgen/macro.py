@@ -17,9 +17,10 @@ import FreeCAD
 
 from freecad.scadgen.affine import KitData, parse_kit
 from freecad.scadgen.cells import MOST_CELLS
-from freecad.scadgen.names import CELLS, COLOURS, LENGTHS, label_of, property_of, role_alone
+from freecad.scadgen.names import CELLS, COLOURS, label_of, property_of, role_alone
 from freecad.scadgen.refusal import refuse
 from freecad.scadgen.shape import make_shape, placed, put
+from freecad.scadgen.tables import LENGTHS
 
 __all__ = ["open_kit"]
 

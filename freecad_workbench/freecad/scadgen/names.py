@@ -5,11 +5,11 @@ from __future__ import annotations
 from FreeCAD import Qt
 
 from freecad.scadgen.affine import Solid
+from freecad.scadgen.tables import LENGTHS, PART_ROLES
 
 __all__ = [
     "CELLS",
     "COLOURS",
-    "LENGTHS",
     "ROLE_LABELS",
     "icon_of",
     "joint_label",
@@ -25,33 +25,6 @@ _REGULAR = {
     "basic": QT_TRANSLATE_NOOP("Scadgen", "Basic element"),
     "one_sided": QT_TRANSLATE_NOOP("Scadgen", "One-sided element"),
     "two_sided": QT_TRANSLATE_NOOP("Scadgen", "Two-sided element"),
-}
-
-#: What a person calls a part, by what it is for.
-_LABELS = {
-    "element": QT_TRANSLATE_NOOP("Scadgen", "Edge element"),
-    "connector": QT_TRANSLATE_NOOP("Scadgen", "Connector"),
-    "half": QT_TRANSLATE_NOOP("Scadgen", "Half"),
-    "peg": QT_TRANSLATE_NOOP("Scadgen", "Peg"),
-    "tube": QT_TRANSLATE_NOOP("Scadgen", "Tube"),
-}
-
-#: Live parameters, all lengths: the property each is, and what it means.
-LENGTHS = {
-    "side": ("Side", QT_TRANSLATE_NOOP("App::Property", "Side of the square tubes")),
-    "edge_length": (
-        "EdgeLength",
-        QT_TRANSLATE_NOOP("App::Property", "Distance between the centres of two joints"),
-    ),
-    "clearance": ("Clearance", QT_TRANSLATE_NOOP("App::Property", "Gap between mating faces")),
-    "peg_width": ("PegWidth", QT_TRANSLATE_NOOP("App::Property", "Side of the square peg")),
-    "peg_length": ("PegLength", QT_TRANSLATE_NOOP("App::Property", "Length of the peg")),
-    "peg_clearance": (
-        "PegClearance",
-        QT_TRANSLATE_NOOP("App::Property", "Gap between the peg and each wall of its socket"),
-    ),
-    "peg_chamfer": ("PegChamfer", QT_TRANSLATE_NOOP("App::Property", "Lead-in of the peg's tips")),
-    "bore": ("Bore", QT_TRANSLATE_NOOP("App::Property", "Side of the square bore along all edges")),
 }
 
 #: Cells of a frame whose rows and columns can be set.
@@ -79,20 +52,17 @@ ROLE_LABELS = {
     "peg": QT_TRANSLATE_NOOP("Scadgen", "Pegs"),
 }
 
-#: The role whose colour a part alone has, by what it is for; elements with a key's end differ.
-_ALONE = {"element": "row", "connector": "cap", "half": "half_a", "peg": "peg", "tube": "row"}
-
 
 def role_alone(part: Solid) -> str:
     """The role whose colour a part alone has."""
     if part.is_second:
         return "half_b"
-    return "cross" if part.role == "element" and part.keys else _ALONE[part.role]
+    return "cross" if part.role == "element" and part.keys else PART_ROLES[part.role][1]
 
 
 def icon_of(part: Solid) -> str:
     """The icon of a part."""
-    return [*_REGULAR][part.keys] if part.role == "element" else part.role
+    return [*_REGULAR][part.keys] if part.role == "element" else PART_ROLES[part.role][2]
 
 
 def property_of(parameter: str) -> str:
@@ -110,5 +80,5 @@ def label_of(part: Solid) -> str:
     if part.name in _REGULAR:
         return str(Qt.translate("Scadgen", _REGULAR[part.name]))
     number = part.name.split("_")[1:2]
-    said = " ".join([Qt.translate("Scadgen", _LABELS[part.role]), *number])
+    said = " ".join([Qt.translate("Scadgen", PART_ROLES[part.role][0]), *number])
     return f"{said} ({Qt.translate('Scadgen', 'second shape')})" if part.is_second else said

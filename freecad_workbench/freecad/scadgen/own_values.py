@@ -8,8 +8,8 @@ import FreeCAD as App
 
 from freecad.scadgen import document
 from freecad.scadgen.kit_object import data_of
-from freecad.scadgen.names import LENGTHS
 from freecad.scadgen.part_object import follow, follows, own
+from freecad.scadgen.tables import LENGTHS
 
 __all__ = ["add_actions", "follow_kit", "own_clearance"]
 

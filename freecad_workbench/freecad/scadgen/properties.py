@@ -10,7 +10,8 @@ import FreeCAD as App
 from freecad.scadgen import refusal
 from freecad.scadgen.affine import KitData, KitError
 from freecad.scadgen.cells import MOST_CELLS
-from freecad.scadgen.names import CELLS, LENGTHS, property_of
+from freecad.scadgen.names import CELLS, property_of
+from freecad.scadgen.tables import LENGTHS
 
 __all__ = [
     "DERIVED",

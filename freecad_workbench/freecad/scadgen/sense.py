@@ -8,29 +8,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from freecad.scadgen.cells import MOST_CELLS
+from freecad.scadgen.tables import LENGTHS, OPTIONAL, PART_ROLES
 
-__all__ = ["KEYS", "PARAMETERS", "PART_ROLES", "ROLES", "nonsense"]
+__all__ = ["KEYS", "ROLES", "nonsense"]
 
 #: Key styles.
 KEYS = ("fixed", "loose")
 
-#: What a part is for.
-PART_ROLES = ("element", "connector", "half", "peg", "tube")
-
 #: What a placed piece is to the viewer.
 ROLES = ("row", "cross", "half_a", "half_b", "cap", "peg")
-
-#: The live parameters; a kit without a bore lacks the last.
-PARAMETERS = (
-    "side",
-    "edge_length",
-    "clearance",
-    "peg_width",
-    "peg_length",
-    "peg_clearance",
-    "peg_chamfer",
-    "bore",
-)
 
 #: What files are called, and what parts are.
 _FILE, _PART = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}"), re.compile(r"[a-z][A-Za-z0-9_]*")
@@ -87,10 +73,10 @@ def _of_lengths(document: Mapping[str, Any]) -> Iterator[str]:
     """What is wrong with the live parameters and their ranges."""
     values = document["values"]
     for name in (*values, *(r["parameter"] for r in document["ranges"])):
-        if name not in PARAMETERS:
-            yield _wrong("live parameter", name, f"one of {', '.join(PARAMETERS)}")
-    for name in PARAMETERS[:-1]:
-        if name not in values:
+        if name not in LENGTHS:
+            yield _wrong("live parameter", name, f"one of {', '.join(LENGTHS)}")
+    for name in LENGTHS:
+        if name not in values and name not in OPTIONAL:
             yield f"live parameter {name} is missing"
     for name, value in values.items():
         if not _is_number(value):

@@ -13,9 +13,9 @@ from PySide import QtCore
 from freecad.scadgen import document
 from freecad.scadgen.affine import KitError, read_kit
 from freecad.scadgen.engine import Engine, EngineError, Outcome
-from freecad.scadgen.names import LENGTHS
 from freecad.scadgen.panels.panel import Panel
 from freecad.scadgen.preferences import clearance
+from freecad.scadgen.tables import LENGTHS
 
 __all__ = ["NewKitPanel", "add_to_document"]
 

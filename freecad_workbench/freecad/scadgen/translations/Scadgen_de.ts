@@ -582,7 +582,7 @@
    <translation>Seite</translation>
   </message>
   <message>
-   <source>Side of a square bore along all edges; without a tick there is none</source>
+   <source>Side of the square bore along all edges; without a tick there is none</source>
    <translation>Seite einer quadratischen Bohrung durch alle Kanten; ohne Haken gibt es keine</translation>
   </message>
   <message>
