@@ -444,7 +444,7 @@ def test_the_command_writes_json_text_and_pictures(run, folder, tmp_path, monkey
 
 
 def test_a_step_that_is_not_proved_is_told_with_its_joint(run, folder, monkeypatch):
-    monkeypatch.setattr(search, "escape", lambda *_, **__: Attempts(1, 1, in_time=True))
+    monkeypatch.setattr(search, "escape", lambda *_, **__: Attempts(1, 1, 0.0, 0.0, finished=True))
     text = (folder / "kit.json").read_text(encoding="utf-8")
     document = json.loads(text)
     (way,) = [w for w in document["joints"][0]["ways"] if w["name"].startswith("the peg")]

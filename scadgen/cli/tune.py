@@ -30,11 +30,12 @@ _FILE = click.Path(path_type=Path)
     help="Thinnest section that the connectors' arms may have.",
 )
 @click.option(
-    "--budget",
-    default=600.0,
+    "--rounds",
+    "count",
+    default=24,
     show_default=True,
-    metavar="S",
-    help="Seconds to search.",
+    metavar="N",
+    help="Rounds of the search: each looks at 32 weaves and proves the best two.",
 )
 @click.option("--seed", default=1, show_default=True, help="The same finds the same.")
 @click.option("--jobs", type=int, metavar="N", help="Processes.  [default: one a core]")
@@ -53,7 +54,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     valence: int,
     key: str,
     arm: float,
-    budget: float,
+    count: int,
     seed: int,
     jobs: int | None,
     record: Path | None,
@@ -70,7 +71,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     Exit status 0 if one was found, 1 if none.
 
     \b
-    scadgen tune --valence 5 --budget 1200 --record five.jsonl -o five.json
+    scadgen tune --valence 5 --rounds 48 --record five.jsonl -o five.json
     scadgen kit hexagonal --weave tight.json
     """  # noqa: D301  click wants the character
     from scadgen.emit.target import target
@@ -83,8 +84,8 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     if jobs is not None and jobs < 1:
         msg = f"jobs = {jobs}: must be at least 1"
         raise InputError(msg)
-    if not budget > 0:
-        msg = f"budget = {budget:g} s: must be above 0"
+    if count < 1:
+        msg = f"rounds = {count}: must be at least 1"
         raise InputError(msg)
     if seed < 0:
         msg = f"seed = {seed}: must be at least 0"
@@ -93,8 +94,8 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     wish = Wish(valence, key, arm)
     search = Search(wish, seed, Record(record, wish, seed))
     with progress("tuning") as bar:
-        for gone in rounds(search, start(valence), budget, jobs):
-            bar.reach(gone / budget)
+        for gone in rounds(search, start(valence), count, jobs):
+            bar.reach(gone)
             bar.say(_state(search))
     found = [(Weave(*shape, name=f"tuned-{valence}-{key}"), f) for shape, f in search.front]
     if place and found:

@@ -44,9 +44,6 @@ _SPREAD = 0.15
 #: Of the others those that go or turn along a face's normal, and those up to which no more turn.
 _ALONG, _STRAIGHT = 0.2, 0.4
 
-#: Steps after which the search ends.
-_STEPS = 10000
-
 #: What a turn counts beside a shift by one size, per radian.
 _TURN = 0.4
 
@@ -87,11 +84,17 @@ class Tree:
         start = self.nodes[0].pose
         self.gap = min(max(self.walls.gap(start), 0.0), _MOST_KEPT * self.scene.size / _KEPT[1])
         self.near = float(self.scene.apart(start).max())
+        self._reached: tuple[float, float] = (0.0, 0.0)
 
     @property
     def hopeful(self) -> bool:
         """Whether another try may get farther."""
-        return self.patience > 0 and self.steps < _STEPS
+        return self.patience > 0
+
+    @property
+    def farthest(self) -> tuple[float, float]:
+        """How far poses are from the start at most: in mm, and in radians."""
+        return self._reached
 
     def grow(self) -> list[Pose] | None:
         """Try once more: the poses of a clear way out, if that was one."""
@@ -175,6 +178,7 @@ class Tree:
                 if not self.scene.free(pose):
                     break
                 self.nodes.append(_Node(pose, node, self._score(pose, out)))
+                self._reach(pose)
                 node = len(self.nodes) - 1
             if out > 0:
                 return True
@@ -186,15 +190,24 @@ class Tree:
         length = max(_STEP * size, 0.8 * gap)
         step = length * wanted
         if gap < 2 * length:
-            step = nearest(step, *self.walls.rows(pose, self.kept), size)
+            step = nearest(step, *self.walls.rows(pose, self.kept - self.scene.allowed), size)
         share = float(np.linalg.norm(step)) / length
-        step, least = step / max(share / 1.5, 1.0), min(_SLACK * self.kept, gap)
+        step, least = (
+            step / max(share / 1.5, 1.0),
+            min(_SLACK * self.kept, gap) - self.scene.allowed,
+        )
         for _ in range(_HALVED):
             after = pose.moved(step, size)
             if self.walls.gap(after) >= least:
                 return after, float(np.linalg.norm(step)) / length
             step = step / 2
         return None
+
+    def _reach(self, pose: Pose) -> None:
+        """Note how far a pose is from the start."""
+        shift = float(np.linalg.norm(pose.centre - self.scene.middle))
+        turn = float(Rotation.from_matrix(pose.turn).magnitude())
+        self._reached = max(self._reached[0], shift), max(self._reached[1], turn)
 
     def _score(self, pose: Pose, out: float) -> float:
         """How far a pose is from the start, and how much nearer to free."""
