@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scadgen.errors import InputError
+from scadgen.plane.area import MOST_TILES
 from scadgen.plane.catalogue import ALIASES, NAMES, OPTIONS, named
 from scadgen.plane.cells import LAVES, LEFT_OUT, UNIFORM
 from scadgen.plane.simple import ladder, ring, strip
-from scadgen.plane.area import MOST_TILES
 from scadgen.plane.tilings import laves, rectangular, rhombic, uniform
 
 #: Tiles of one cell by their number of sides, from the angles at a vertex by hand: a vertex
