@@ -43,7 +43,7 @@ _MAKE = """
 import json, resource, sys, time
 import numpy as np
 from scadgen.joint.weave import any_joint
-from scadgen.kit.wanted import Wanted, made_pieces
+from scadgen.kit.compute import JointSpec, compute_joint
 rng, joints = np.random.default_rng(3), []
 while len(joints) < int(sys.argv[1]):
     turns = np.sort(rng.uniform(0, 2 * np.pi, 2 + len(joints) % 5))
@@ -51,12 +51,12 @@ while len(joints) < int(sys.argv[1]):
     least = float(np.diff(np.append(turns, 2 * np.pi)).min())
     if least > np.radians(32):
         weave, wider = any_joint(least), (0.0, 0.1, 0.2, 0.3)
-        joints.append(Wanted(tuple(turns.tolist()), weave, "loose", "draft", wider=wider))
+        joints.append(JointSpec(tuple(turns.tolist()), weave, "loose", "draft", wider=wider))
 if sys.argv[2:] == ["warm"]:
-    made_pieces(joints[0])
+    compute_joint(joints[0])
 start = time.process_time()
 for joint in joints:
-    made_pieces(joint)
+    compute_joint(joint)
 cpu = time.process_time() - start
 peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
 json.dump({"cpu": cpu, "peak": peak}, sys.stdout)

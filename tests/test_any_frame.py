@@ -32,8 +32,8 @@ from scadgen.kit.store import dumps, loads, summary
 from scadgen.plan.motion import motion_of
 from scadgen.plan.order import make_plan
 from scadgen.plan.standing import stand
+from scadgen.plan.text import plan_text
 from scadgen.plan.whole import whole_frame
-from scadgen.plan.words import plan_text
 from scadgen.plane.catalogue import named
 from scadgen.plane.drawn import make_frame
 from scadgen.solid.gap import smallest_gap

@@ -27,13 +27,13 @@ from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import build, laid_out
 from scadgen.kit.store import dumps as kit_text
 from scadgen.plan import order, search
+from scadgen.plan.as_json import dumps, plan_entry
 from scadgen.plan.order import make_plan
 from scadgen.plan.pegs import count_pegs
 from scadgen.plan.picture import step_pictures
 from scadgen.plan.proof import Prover
 from scadgen.plan.rows import Rows
 from scadgen.plan.standing import stand
-from scadgen.plan.told import dumps, plan_entry
 from scadgen.plan.touching import Touching
 from scadgen.plan.whole import whole_frame
 from scadgen.solid.pose import Pose

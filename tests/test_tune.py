@@ -12,7 +12,7 @@ from scadgen.joint.weave import BUILT_IN, SHAPE, Weave
 from scadgen.tune.judge import Figures, Wish, figures
 from scadgen.tune.record import Record
 from scadgen.tune.run import rounds, start
-from scadgen.tune.search import Search
+from scadgen.tune.search import WeaveSearch
 
 PAIR = Wish(2, "fixed", 0.2)
 
@@ -31,7 +31,7 @@ def run(capsys):
 def test_the_built_in_weave_is_found_again_and_written(run, tmp_path):
     record, output = tmp_path / "record.jsonl", tmp_path / "weave.json"
     words = ("--valence", 3, "--rounds", 1, "--record", record, "-o", output, "--json")
-    search = Search(Wish(3, "fixed", 0.2), 1, Record(record, Wish(3, "fixed", 0.2), 1))
+    search = WeaveSearch(Wish(3, "fixed", 0.2), 1, Record(record, Wish(3, "fixed", 0.2), 1))
     for _ in rounds(search, start(3), 1):
         if search.front:
             break
@@ -50,7 +50,7 @@ def test_the_built_in_weave_is_found_again_and_written(run, tmp_path):
 
 def test_the_same_seed_looks_at_the_same_weaves_on_any_number_of_cores():
     def looked(jobs, seed=1):
-        search = Search(PAIR, seed, Record(None, PAIR, seed))
+        search = WeaveSearch(PAIR, seed, Record(None, PAIR, seed))
         next(iter(rounds(search, [], 1, jobs)))
         return search.looked
 

@@ -12,12 +12,11 @@ from shapes import box, torus
 from stub_kit import stub_kit, with_joint
 
 import scadgen.joint.joint as joints
-from scadgen.check import ways
+from scadgen.check.disassembly import come_apart
 from scadgen.check.joint_contacts import whole_contacts
-from scadgen.check.known import known_ways
 from scadgen.check.locking import TIP
 from scadgen.check.proof import proved
-from scadgen.check.ways import come_apart
+from scadgen.check.stored_paths import known_ways
 from scadgen.errors import GeometryError, InputError, KitError
 from scadgen.frame.placement import Place, Placement
 from scadgen.interlock.assembly import make_assembly
@@ -102,8 +101,8 @@ def _linked_rings(monkeypatch):
     upright = ring[:, [0, 2, 1]] * (1, 1, -1) + (3, 0, 0)
     boxes = [box((x, 0, 0), (x + 1, 1, 1)) for x in (20, 22)]
     shapes = [(ring, faces), (upright, faces), *boxes]
-    monkeypatch.setattr(ways, "pieces", lambda *_: shapes)
-    monkeypatch.setattr(ways, "tubes", lambda *_: {})
+    monkeypatch.setattr(disassembly, "pieces", lambda *_: shapes)
+    monkeypatch.setattr(disassembly, "tubes", lambda *_: {})
 
 
 def of_four_connectors(known=(), **options):

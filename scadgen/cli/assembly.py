@@ -15,7 +15,7 @@ from scadgen.errors import InputError
 
 if TYPE_CHECKING:
     from scadgen.interlock.contacts import Contacts, Mesh
-    from scadgen.tools.read_mesh import Part
+    from scadgen.tools.read_mesh import MeshPart
 
 __all__ = ["checked_interference", "checked_tolerance", "held_parts", "touching"]
 
@@ -26,7 +26,7 @@ _LARGE = 0.5
 _FILM = 0.01
 
 
-def held_parts(parts: Sequence[Part], hold: tuple[str, ...]) -> list[int]:
+def held_parts(parts: Sequence[MeshPart], hold: tuple[str, ...]) -> list[int]:
     """Numbers of the parts to hold.
 
     Parameters
@@ -65,7 +65,7 @@ def held_parts(parts: Sequence[Part], hold: tuple[str, ...]) -> list[int]:
     return sorted(chosen)
 
 
-def _named(parts: Sequence[Part], text: str) -> list[int]:
+def _named(parts: Sequence[MeshPart], text: str) -> list[int]:
     """Numbers of the parts that a name, a file or a pattern stands for."""
     for fits in (
         [n for n, part in enumerate(parts) if part.name == text],

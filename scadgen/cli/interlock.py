@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from scadgen.emit.target import Target
     from scadgen.interlock.contacts import Contacts, Mesh
     from scadgen.interlock.gaps import Gap
-    from scadgen.interlock.taken import Apart
+    from scadgen.interlock.taken import TakenApart
     from scadgen.interlock.verdict import Certificate, Motion
 
 __all__ = ["interlock"]
@@ -79,7 +79,7 @@ def interlock(  # noqa: PLR0913, PLR0917  one argument an option
     they are can turn ten tolerances without overlap.  Keys are parts that were taken out, in
     that order, straight; with --apart on any way that is found.
 
-    With --apart the answer is one of these.  Apart: all parts were taken out, alone or in
+    With --apart the answer is one of these.  TakenApart: all parts were taken out, alone or in
     groups.  Captive: they move, but no way out was found.  Locked.  Not settled: the search
     did not end, or several parts may have to move in turns.
 
@@ -249,7 +249,7 @@ def _draw(
     motion: Motion | None,
     until: float,
     pictures: dict[str, Target],
-    apart: Apart | None,
+    apart: TakenApart | None,
 ) -> None:
     """Write the pictures that were asked for."""
     from scadgen.emit.motion import apart_gif, motion_gif, motion_png

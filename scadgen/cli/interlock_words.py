@@ -13,7 +13,7 @@ from scadgen.cli.console import counted, table
 
 if TYPE_CHECKING:
     from scadgen.interlock.contacts import Mesh
-    from scadgen.interlock.taken import Apart, Left
+    from scadgen.interlock.taken import Left, TakenApart
     from scadgen.interlock.verdict import Motion
     from scadgen.solid.affine import Floats
 
@@ -158,7 +158,7 @@ def _left(one: dict[str, Any]) -> str:
     return f"{parts}: not settled, no way out in {ways}"
 
 
-def apart_as_json(names: Sequence[str], apart: Apart) -> dict[str, Any]:
+def apart_as_json(names: Sequence[str], apart: TakenApart) -> dict[str, Any]:
     """What becomes of an assembly as JSON.
 
     Parameters

@@ -36,12 +36,12 @@ def plan(folder: Path, output: Path | None, as_json: bool) -> int:  # noqa: FBT0
     scadgen plan out/hexagonal -o steps --json
     """  # noqa: D301  click wants the character
     from scadgen.kit.store import load
+    from scadgen.plan.as_json import dumps, plan_entry
     from scadgen.plan.folder import check_plan_folder, write_plan
     from scadgen.plan.order import make_plan
     from scadgen.plan.picture import step_pictures
-    from scadgen.plan.told import dumps, plan_entry
+    from scadgen.plan.text import plan_text
     from scadgen.plan.whole import whole_frame
-    from scadgen.plan.words import plan_text
 
     kit = load(folder)
     target = output or (folder if folder.is_dir() else folder.parent) / "plan"

@@ -12,14 +12,14 @@ from scadgen.cli.console import force_option, progress, table
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
-    from scadgen.tune.search import Search
+    from scadgen.tune.search import WeaveSearch
 
 __all__ = ["tune"]
 
 _FILE = click.Path(path_type=Path)
 
 
-@click.command(short_help="Search a better weave.")
+@click.command(short_help="WeaveSearch a better weave.")
 @click.option("--valence", default=3, show_default=True, metavar="N", help="Edges at the joint.")
 @click.option("--key", default="fixed", show_default=True, metavar="fixed|loose", help="Key style.")
 @click.option(
@@ -62,7 +62,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     force: bool,  # noqa: FBT001
     as_json: bool,  # noqa: FBT001  click passes flags so
 ) -> int:
-    """Search the weaves of a regular joint for the least play.
+    """WeaveSearch the weaves of a regular joint for the least play.
 
     Prints those that no other beats both in play and in thickness of the arms.  Each of them
     is proved as scadgen kit proves a joint: it locks, also at twice the samples, comes apart
@@ -79,7 +79,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     from scadgen.tune.judge import Wish
     from scadgen.tune.record import Record
     from scadgen.tune.run import rounds, start
-    from scadgen.tune.search import Search
+    from scadgen.tune.search import WeaveSearch
 
     if jobs is not None and jobs < 1:
         msg = f"jobs = {jobs}: must be at least 1"
@@ -92,7 +92,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
         raise InputError(msg)
     place = target(output, [record] if record else [], force=force) if output else None
     wish = Wish(valence, key, arm)
-    search = Search(wish, seed, Record(record, wish, seed))
+    search = WeaveSearch(wish, seed, Record(record, wish, seed))
     with progress("tuning") as bar:
         for gone in rounds(search, start(valence), count, jobs):
             bar.reach(gone)
@@ -111,7 +111,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     return 0 if found else 1
 
 
-def _state(search: Search) -> str:
+def _state(search: WeaveSearch) -> str:
     """How far a search has come, in a line."""
     lock = sum(not found.refused for found in search.looked.values())
     best = f", play {search.front[0][1].play:.1f}" if search.front else ""

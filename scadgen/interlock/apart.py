@@ -26,7 +26,7 @@ from scadgen.interlock.escape import STEPS, Attempts, escape
 from scadgen.interlock.path import Path
 from scadgen.interlock.round import round_depth, round_motions
 from scadgen.interlock.scene import Scene
-from scadgen.interlock.taken import Apart, Left, Removal
+from scadgen.interlock.taken import Left, Removal, TakenApart
 from scadgen.interlock.verdict import Motion, verdict
 from scadgen.interlock.wayout import followed, screwed, straight, united_mesh
 
@@ -54,7 +54,7 @@ def take_apart(
     steps: int = BUDGET,
     interference: float = 0.0,
     say: Callable[[str], None] = lambda _: None,
-) -> Apart:
+) -> TakenApart:
     """Take an assembly apart.
 
     Parameters
@@ -119,7 +119,7 @@ class _Taking:
         size = float(np.linalg.norm(np.ptp(corners, axis=0)))
         self._allowed = interference + _ROUNDING * size
 
-    def apart(self, say: Callable[[str], None]) -> Apart:
+    def apart(self, say: Callable[[str], None]) -> TakenApart:
         """All that comes out, and what is left."""
         removals: list[Removal] = []
         left: list[Left] = []
@@ -135,7 +135,7 @@ class _Taking:
                 continue
             removals.append(found)
             tables += [frozenset(found.parts), frozenset(found.left)]
-        return Apart(tuple(removals), tuple(left))
+        return TakenApart(tuple(removals), tuple(left))
 
     def _next(self, table: frozenset[int]) -> Removal | Left:
         """What comes out of some parts next; else what keeps them."""

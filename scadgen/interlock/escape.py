@@ -20,7 +20,7 @@ from scadgen.errors import InputError
 from scadgen.interlock.cone import Walls
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.path import Path, replay
-from scadgen.interlock.scene import Pose, Scene
+from scadgen.interlock.scene import Scene, Stance
 from scadgen.interlock.tree import Tree
 
 __all__ = ["STEPS", "Attempts", "escape"]
@@ -102,7 +102,7 @@ def escape(
         msg = f"far = {far} mm: must be at least 0 and finite"
         raise InputError(msg)
     scene = Scene(moving, fixed, allowed)
-    start = Pose(np.eye(3), scene.middle)
+    start = Stance(np.eye(3), scene.middle)
     if not scene.clear(start, start):
         msg = "the body overlaps the others at the start: give both their clearance"
         raise InputError(msg)
@@ -131,13 +131,13 @@ def _holds(scene: Scene, path: Path, moving: Sequence[Mesh], fixed: Sequence[Mes
     return replay(path, moving, fixed, scene.step) <= scene.rounding
 
 
-def _straight(scene: Scene, start: Pose, gap: float) -> Pose | None:
+def _straight(scene: Scene, start: Stance, gap: float) -> Stance | None:
     """The end of the shortest straight way."""
     ways = gap - scene.apart(start)
     for which in np.argsort(ways, kind="stable"):
         way = max(float(ways[which]), 0.0)
         near, pose = (
-            Pose(start.turn, start.centre + length * scene.directions[which])
+            Stance(start.turn, start.centre + length * scene.directions[which])
             for length in (min(way, _FIRST * scene.step), way)
         )
         if scene.free(near) and scene.clear(start, pose):
@@ -145,7 +145,7 @@ def _straight(scene: Scene, start: Pose, gap: float) -> Pose | None:
     return None
 
 
-def _shortened(scene: Scene, way: Sequence[Pose]) -> list[Pose]:
+def _shortened(scene: Scene, way: Sequence[Stance]) -> list[Stance]:
     """As few of the poses as give a clear way: what can be skipped is."""
     if len(way) <= 2 or scene.clear(way[0], way[-1]):
         return [way[0], way[-1]]
@@ -157,9 +157,9 @@ def _shortened(scene: Scene, way: Sequence[Pose]) -> list[Pose]:
     return found
 
 
-def _away(scene: Scene, last: Pose, gap: float) -> Pose:
+def _away(scene: Scene, last: Stance, gap: float) -> Stance:
     """The pose a gap away from all, straight on from one where a plane already separates."""
     width = scene.apart(last)
     best = int(width.argmax())
     further = max(gap - float(width[best]), 0.0)
-    return Pose(last.turn, last.centre + further * scene.directions[best])
+    return Stance(last.turn, last.centre + further * scene.directions[best])

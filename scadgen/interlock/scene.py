@@ -19,7 +19,7 @@ from scadgen.solid.gap import thickness
 if TYPE_CHECKING:
     from manifold3d import Manifold
 
-__all__ = ["Pose", "Scene", "all_round"]
+__all__ = ["Scene", "Stance", "all_round"]
 
 #: Shared volume, as a share of the body's, that is rounding.
 _ROUNDING = 1e-12
@@ -37,7 +37,7 @@ _BESIDE = np.array([[0.0, 0.0, 0.0], [0.31, -0.17, 0.23], [-0.19, 0.29, -0.13]])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Pose:
+class Stance:
     """Where the body is.
 
     Parameters
@@ -51,10 +51,10 @@ class Pose:
     turn: Floats
     centre: Floats
 
-    def moved(self, step: Floats, size: float) -> Pose:
+    def moved(self, step: Floats, size: float) -> Stance:
         """After a translation and a rotation times `size`, ``(6,)``, about its middle."""
         turn = Rotation.from_rotvec(step[3:] / size) * Rotation.from_matrix(self.turn)
-        return Pose(turn.as_matrix(), self.centre + step[:3])
+        return Stance(turn.as_matrix(), self.centre + step[:3])
 
 
 class Scene:
@@ -119,7 +119,7 @@ class Scene:
         self._reach = float(np.linalg.norm(self._hull, axis=1).max())
         self._support = (self.rest[0] @ self.directions.T).max(axis=0)
 
-    def path(self, poses: Sequence[Pose]) -> Path:
+    def path(self, poses: Sequence[Stance]) -> Path:
         """The path through some poses."""
         matrices = np.tile(np.eye(4), (len(poses), 1, 1))
         for matrix, pose in zip(matrices, poses, strict=True):
@@ -127,7 +127,7 @@ class Scene:
             matrix[:3, 3] = pose.centre - pose.turn @ self.middle
         return Path(matrices, self.middle)
 
-    def clear(self, a: Pose, b: Pose) -> bool:
+    def clear(self, a: Stance, b: Stance) -> bool:
         """Whether the body is free on all its way from one pose to another."""
         poses = self.path([a, b]).dense(self._reach, self.step)
         # What is far from poses known to be free is looked at first.
@@ -159,11 +159,11 @@ class Scene:
         """Whether the body is free where a matrix ``(3, 4) float`` takes it from its place."""
         return self._free(pose)
 
-    def free(self, pose: Pose) -> bool:
+    def free(self, pose: Stance) -> bool:
         """Whether the body is free at a pose."""
         return self._free(self.path([pose]).poses[0])
 
-    def apart(self, pose: Pose) -> Floats:
+    def apart(self, pose: Stance) -> Floats:
         """Width of the slab between both along each of `directions`, in mm.
 
         It is below 0 where they overlap along the direction.

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from scadgen.interlock.path import Path
 
-__all__ = ["Apart", "Left", "Removal"]
+__all__ = ["Left", "Removal", "TakenApart"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -52,7 +52,7 @@ class Left:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Apart:
+class TakenApart:
     """What became of an assembly.
 
     Parameters

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from scadgen.interlock.cone import Walls, nearest
-from scadgen.interlock.scene import Pose, Scene
+from scadgen.interlock.scene import Scene, Stance
 from scadgen.solid.affine import Floats
 
 __all__ = ["Tree"]
@@ -52,7 +52,7 @@ _TURN = 0.4
 class _Node:
     """A pose that was reached, from another one, and how promising it is."""
 
-    pose: Pose
+    pose: Stance
     parent: int
     score: float
     clear: bool = False
@@ -78,7 +78,7 @@ class Tree:
 
     def __init__(self, scene: Scene, walls: Walls, random: np.random.Generator) -> None:
         self.scene, self.walls, self.random = scene, walls, random
-        self.nodes = [_Node(Pose(np.eye(3), scene.middle), 0, 0.0)]
+        self.nodes = [_Node(Stance(np.eye(3), scene.middle), 0, 0.0)]
         self.tries = self.steps = 0
         self.patience, self.kept = _PATIENCE, 0.0
         start = self.nodes[0].pose
@@ -96,7 +96,7 @@ class Tree:
         """How far poses are from the start at most: in mm, and in radians."""
         return self._reached
 
-    def grow(self) -> list[Pose] | None:
+    def grow(self) -> list[Stance] | None:
         """Try once more: the poses of a clear way out, if that was one."""
         self.tries += 1
         self.patience -= 1
@@ -184,7 +184,7 @@ class Tree:
                 return True
         return False
 
-    def _step(self, pose: Pose, wanted: Floats) -> tuple[Pose, float] | None:
+    def _step(self, pose: Stance, wanted: Floats) -> tuple[Stance, float] | None:
         """The pose after a step, and its share of the length wanted; None where all is shut."""
         size, gap = self.scene.size, self.walls.gap(pose)
         length = max(_STEP * size, 0.8 * gap)
@@ -203,19 +203,19 @@ class Tree:
             step = step / 2
         return None
 
-    def _reach(self, pose: Pose) -> None:
+    def _reach(self, pose: Stance) -> None:
         """Note how far a pose is from the start."""
         shift = float(np.linalg.norm(pose.centre - self.scene.middle))
         turn = float(Rotation.from_matrix(pose.turn).magnitude())
         self._reached = max(self._reached[0], shift), max(self._reached[1], turn)
 
-    def _score(self, pose: Pose, out: float) -> float:
+    def _score(self, pose: Stance, out: float) -> float:
         """How far a pose is from the start, and how much nearer to free."""
         gone = float(np.linalg.norm(pose.centre - self.scene.middle)) + out - self.near
         turned = float(Rotation.from_matrix(pose.turn).magnitude())
         return gone / self.scene.size + _TURN * turned
 
-    def _clear_way(self) -> list[Pose] | None:
+    def _clear_way(self) -> list[Stance] | None:
         """The way to the last pose, if it is clear; else what lies behind an overlap goes."""
         chain = [len(self.nodes) - 1]
         while chain[-1]:

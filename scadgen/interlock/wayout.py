@@ -9,7 +9,7 @@ import numpy as np
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.follow import middle, screw, speed
 from scadgen.interlock.path import Path
-from scadgen.interlock.scene import Pose, Scene
+from scadgen.interlock.scene import Scene, Stance
 from scadgen.interlock.verdict import Motion
 from scadgen.solid.affine import Floats
 
@@ -36,12 +36,12 @@ def straight(scene: Scene, directions: Floats) -> Path | None:
     directions
         ``(k, 3) float``: unit vectors that are tried.
     """
-    start = Pose(np.eye(3), scene.middle)
+    start = Stance(np.eye(3), scene.middle)
     ways = np.maximum(scene.ways(directions) + scene.step, 0.0)
     stride = max(scene.step, _STRIDE * scene.size)
     for which in np.argsort(ways, kind="stable")[:_TRIED]:
         near, end = (
-            Pose(start.turn, start.centre + length * directions[which])
+            Stance(start.turn, start.centre + length * directions[which])
             for length in (min(ways[which], _FIRST * stride), ways[which])
         )
         if scene.free(near):

@@ -17,9 +17,9 @@ from scadgen.joint.weave import Weave, any_joint, built_in
 from scadgen.kit.ranges import LONGEST, SIDE, check_values
 from scadgen.kit.request import Request
 from scadgen.kit.room import reaches, room
-from scadgen.plane.apart import Apart
 from scadgen.plane.drawn import make_frame
 from scadgen.plane.periodic import Block
+from scadgen.plane.spacing import Spacing
 from scadgen.solid.affine import Floats
 
 __all__ = ["WIDER", "Design", "design", "growth"]
@@ -181,7 +181,7 @@ def _needed(request: Request, found: Design) -> float:
     side, shortest = request.side, _shortest(found.same)
     need = shortest * least_scale(found.frame, side, found.rings, _ROOM[request.key])
     if not request.regular:  # whose joints keep apart if their edges are long enough
-        need = max(need, shortest * Apart(found.frame, found.rings + WIDER[-1]).least_scale(side))
+        need = max(need, shortest * Spacing(found.frame, found.rings + WIDER[-1]).least_scale(side))
     return max(6, math.ceil(need / side - 1e-9)) * side
 
 

@@ -35,7 +35,7 @@ from scadgen.kit.entries import (
 from scadgen.kit.live import PARAMETERS
 from scadgen.kit.model import Kit, Vertex
 from scadgen.kit.ranges import check_values
-from scadgen.kit.sense import check_sense
+from scadgen.kit.validate import validate
 from scadgen.plane.catalogue import NamedTiling
 from scadgen.plane.drawn import make_frame
 from scadgen.solid.affine import Linear, Range
@@ -151,7 +151,7 @@ def loads(text: str) -> Kit:
         if missing := {*kit.values} - {r.parameter for r in kit.ranges}:
             _refuse(f"no range for {', '.join(sorted(missing))}")
         check_values(kit.ranges, kit.values)
-        check_sense(kit, document)
+        validate(kit, document)
         kit = with_bill(kit, document["bill_of_materials"])
     except (InputError, InvariantError, ValueError, KeyError, TypeError, OverflowError) as error:
         _refuse(str(error))

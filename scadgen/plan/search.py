@@ -11,13 +11,13 @@ from scadgen.plan.choice import Choice
 from scadgen.plan.proof import Prover
 from scadgen.plan.standing import Standing
 
-__all__ = ["Search"]
+__all__ = ["WaySearch"]
 
 #: Seed of the searches.
 _SEED = 1
 
 
-class Search:
+class WaySearch:
     """Searches for ways, and remembers what was found and what was not.
 
     Parameters

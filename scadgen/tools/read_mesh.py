@@ -16,7 +16,7 @@ from scadgen.solid.crossing import crossing_faces
 from scadgen.solid.mesh import FLAT, heights, volume
 from scadgen.tools.stl import nothing_inside, read_stl, read_text_stl
 
-__all__ = ["FORMATS", "Part", "read_parts"]
+__all__ = ["FORMATS", "MeshPart", "read_parts"]
 
 #: The endings of files that can be read.
 FORMATS = ("stl", "3mf", "obj", "ply", "off")
@@ -34,7 +34,7 @@ _DEEP = 1e-5
 _Mesh = tuple[Floats, Ints]
 
 
-class Part(NamedTuple):
+class MeshPart(NamedTuple):
     """A part, and where it is from.
 
     Parameters
@@ -52,7 +52,7 @@ class Part(NamedTuple):
     mesh: _Mesh
 
 
-def read_parts(paths: Sequence[Path]) -> list[Part]:
+def read_parts(paths: Sequence[Path]) -> list[MeshPart]:
     """Read the parts in some files.
 
     Parameters
@@ -76,7 +76,7 @@ def read_parts(paths: Sequence[Path]) -> list[Part]:
     """
     files = [(path, _named_bodies(path)) for path in paths]
     names = Counter(name for _, found in files for name, _ in found)
-    parts: dict[str, Part] = {}
+    parts: dict[str, MeshPart] = {}
     for path, found in files:
         named = all(name and names[name] == 1 for name, _ in found)
         for number, (own, mesh) in enumerate(found, 1):
@@ -85,7 +85,7 @@ def read_parts(paths: Sequence[Path]) -> list[Part]:
             if name in parts:
                 msg = f"{path}: there is a part {name} already: files must have different names"
                 raise InputError(msg)
-            parts[name] = Part(name, path, mesh)
+            parts[name] = MeshPart(name, path, mesh)
     _check_sizes([*parts.values()])
     return [*parts.values()]
 
@@ -221,7 +221,7 @@ def _check_body(path: Path, points: Floats, triangles: Ints) -> None:
         raise InputError(msg)
 
 
-def _check_sizes(parts: Sequence[Part]) -> None:
+def _check_sizes(parts: Sequence[MeshPart]) -> None:
     """Refuse parts that cannot be in one unit."""
     size = {part.name: float(np.linalg.norm(np.ptp(part.mesh[0], axis=0))) for part in parts}
     small, large = min(size, key=lambda n: size[n]), max(size, key=lambda n: size[n])

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 
 from scadgen.frame.placement import KEYS
 from scadgen.joint.weave import BUILT_IN, Weave
-from scadgen.tune.search import Search
+from scadgen.tune.search import WeaveSearch
 
 __all__ = ["rounds", "start"]
 
@@ -20,9 +20,9 @@ def start(valence: int) -> list[Weave]:
 
 
 def rounds(
-    search: Search, begin: Iterable[Weave], count: int, jobs: int | None = None
+    search: WeaveSearch, begin: Iterable[Weave], count: int, jobs: int | None = None
 ) -> Iterator[float]:
-    """Search for some rounds.
+    """WeaveSearch for some rounds.
 
     Parameters
     ----------

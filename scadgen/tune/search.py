@@ -19,7 +19,7 @@ from scadgen.solid.affine import Floats
 from scadgen.tune.judge import Figures, Wish, figures, proof
 from scadgen.tune.record import Record, Shape
 
-__all__ = ["Search"]
+__all__ = ["WeaveSearch"]
 
 #: Where weaves are looked for: low and high; ring ratios as shares of half the valence, so
 #: that the room between neighbouring tubes is about the same.
@@ -43,7 +43,7 @@ _ARM = 2.0
 
 
 @dataclass
-class Search:
+class WeaveSearch:
     """A search, and what it has found.
 
     Parameters
@@ -65,7 +65,7 @@ class Search:
     proved: dict[Shape, Figures] = field(default_factory=dict)
 
     def rounds(self, workers: Pool, start: Iterable[Weave], count: int) -> Iterator[None]:
-        """Search for some rounds, each of which looks and then proves.
+        """WeaveSearch for some rounds, each of which looks and then proves.
 
         Parameters
         ----------

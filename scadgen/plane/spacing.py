@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scadgen.frame.graph import Frame
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["Apart"]
+__all__ = ["Spacing"]
 
 #: Room between two joints, or a joint and a tube, in sides: to put parts in past others.
 _GAP = 0.25
@@ -29,7 +29,7 @@ _ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Apart:
+class Spacing:
     """What the joints of a frame need around them.
 
     Parameters

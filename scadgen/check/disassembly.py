@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from scadgen.check.openings import Openings
+from scadgen.check.opening_motions import Openings
 from scadgen.check.pieces import key_tubes, pieces, tubes
 from scadgen.check.result import Result
 from scadgen.interlock.contacts import Mesh
