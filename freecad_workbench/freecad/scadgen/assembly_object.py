@@ -6,7 +6,7 @@ from typing import Any
 
 import FreeCAD as App
 
-from freecad.scadgen.affine import KitError
+from freecad.scadgen.kit_data import KitError
 from freecad.scadgen.kit_object import data_of
 from freecad.scadgen.names import CELLS, COLOURS
 from freecad.scadgen.properties import (

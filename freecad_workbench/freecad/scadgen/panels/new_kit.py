@@ -12,8 +12,8 @@ import FreeCADGui as Gui
 from PySide import QtCore
 
 from freecad.scadgen import document
-from freecad.scadgen.affine import KitError, read_kit
 from freecad.scadgen.engine import Engine, EngineError, Outcome
+from freecad.scadgen.kit_data import KitError, read_kit
 from freecad.scadgen.panels.frame_options import FrameOptions
 from freecad.scadgen.panels.panel import Panel
 from freecad.scadgen.preferences import clearance
