@@ -19,6 +19,7 @@ _WORDS = (
     _NOOP("Scadgen", "Angle"),
     _NOOP("Scadgen", "Bay length"),
     _NOOP("Scadgen", "Bays"),
+    _NOOP("Scadgen", "Centre"),
     _NOOP("Scadgen", "Columns"),
     _NOOP("Scadgen", "Components"),
     _NOOP("Scadgen", "Flatten"),
@@ -32,10 +33,11 @@ _WORDS = (
     _NOOP("Scadgen", "Scale"),
     _NOOP("Scadgen", "Shortest"),
     _NOOP("Scadgen", "Sides"),
-    _NOOP("Scadgen", "Skip unknown"),
     _NOOP("Scadgen", "Snap"),
+    _NOOP("Scadgen", "Strict"),
     _NOOP("Scadgen", "Tolerance"),
     _NOOP("Scadgen", "Triangles"),
+    _NOOP("Scadgen", "Unit"),
     _NOOP("Scadgen", "Width"),
 )
 

@@ -159,6 +159,10 @@
    <translation>Felder</translation>
   </message>
   <message>
+   <source>Centre</source>
+   <translation>Mitte auf 0</translation>
+  </message>
+  <message>
    <source>Check</source>
    <translation>Prüfen</translation>
   </message>
@@ -339,10 +343,6 @@
    <translation>Seiten</translation>
   </message>
   <message>
-   <source>Skip unknown</source>
-   <translation>Unbekanntes auslassen</translation>
-  </message>
-  <message>
    <source>Snap</source>
    <translation>Einrasten</translation>
   </message>
@@ -353,6 +353,10 @@
   <message>
    <source>Stopping</source>
    <translation>Wird angehalten</translation>
+  </message>
+  <message>
+   <source>Strict</source>
+   <translation>Streng</translation>
   </message>
   <message>
    <source>The engine is at work</source>
@@ -377,6 +381,10 @@
   <message>
    <source>Two-sided element</source>
    <translation>Zweiseitiges Element</translation>
+  </message>
+  <message>
+   <source>Unit</source>
+   <translation>Einheit</translation>
   </message>
   <message>
    <source>Width</source>
