@@ -20,7 +20,7 @@ from scadgen.kit.build import build
 from scadgen.kit.store import load
 from scadgen.plane.catalogue import ALIASES, NAMES, OPTIONS, named
 from scadgen.plane.drawn import make_frame
-from scadgen.readers.read import read
+from scadgen.readers.read import READERS, read
 
 ROOT = Path(__file__).parent.parent
 NET = ROOT / "examples" / "frames" / "net.json"
@@ -281,13 +281,29 @@ def test_outlines_are_typed_as_corners(run, said):
 
 
 def test_the_list_names_all(run, said):
-    listed = said("--list")
+    listed = said("--list")["named"]
     assert [(f["name"], f["text"]) for f in listed] == [(n, f.text) for n, f in NAMES.items()]
     assert {a: f["name"] for f in listed for a in f["other_names"]} == ALIASES
     code, out, _ = run("--list")
     assert code == 0
     for name in (*NAMES, *ALIASES):
         assert re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", out), name
+
+
+def test_the_list_tells_what_options_take(said):
+    listed = said("--list")
+    for family in listed["named"]:
+        assert [*family["about"]] == [*family["options"]] == [*NAMES[family["name"]].options]
+    forms = {n: a["form"] for f in listed["named"] for n, a in f["about"].items()}
+    assert (forms["rows"], forms["angle"], forms["width"]) == ("N", "DEG", "MM")
+    files = {file["ending"]: file["about"] for file in listed["files"]}
+    assert [*files] == [*READERS]
+    assert files[".svg"]["no_split"] == {
+        "form": None,
+        "text": "refuse segments that cross instead of splitting them",
+    }
+    assert set(files[".json"]) >= {"repair", "tolerance", "snap"}
+    assert "flatten" not in files[".json"]
 
 
 def test_options_are_those_of_the_catalogue():

@@ -20,8 +20,8 @@ from scadgen.plane.catalogue import NAMES
 
 sys.path.append(str(workbench()))
 from freecad.scadgen import cells, sense
-from freecad.scadgen.affine import KitError, parse_kit, read_kit
 from freecad.scadgen.faces import newell
+from freecad.scadgen.kit_data import KitError, parse_kit, read_kit
 
 KINDS = {"hexagonal": ("hexagonal", "fixed", 0.0), "square": ("square", "loose", 1.5)}
 

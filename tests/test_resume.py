@@ -13,6 +13,7 @@ from kits import grid, kit
 
 from scadgen.check import proof
 from scadgen.errors import InvariantError
+from scadgen.kit import compute
 from scadgen.kit.build import build
 from scadgen.kit.store import dumps
 from scadgen.work.cache import Cache

@@ -12,6 +12,7 @@ from shapes import box, torus
 from stub_kit import stub_kit, with_joint
 
 import scadgen.joint.joint as joints
+from scadgen.check import disassembly
 from scadgen.check.disassembly import come_apart
 from scadgen.check.joint_contacts import whole_contacts
 from scadgen.check.locking import TIP

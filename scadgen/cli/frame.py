@@ -12,7 +12,14 @@ import click
 from scadgen.cli.console import force_option, status, table
 from scadgen.cli.curves import share_of_room
 from scadgen.cli.frame_report import SIDES, report, show
-from scadgen.cli.frame_source import has_cells, load_frame, option, source_options
+from scadgen.cli.frame_source import (
+    about_file,
+    about_named,
+    has_cells,
+    load_frame,
+    option,
+    source_options,
+)
 from scadgen.cli.words import LENGTH
 from scadgen.errors import InputError
 
@@ -31,7 +38,12 @@ _FILE = click.Path(path_type=Path)
 
 @click.command(short_help="Look at a frame, named or drawn.")
 @click.argument("name", metavar="FRAME", required=False)
-@click.option("--list", "listing", is_flag=True, help="List the named frames, with their options.")
+@click.option(
+    "--list",
+    "listing",
+    is_flag=True,
+    help="List the named frames, with their options; as JSON also those of files.",
+)
 @click.option("--side", type=LENGTH, metavar="MM", help="Say whether it can be built at this side.")
 @click.option(
     "--ring-ratio",
@@ -173,14 +185,17 @@ def _targets(
 def _list(*, as_json: bool) -> None:
     """Print the named frames; those with the same options together."""
     from scadgen.plane.catalogue import ALIASES, NAMES
+    from scadgen.readers.read import READERS
 
     others = {n: [alias for alias, of in ALIASES.items() if of == n] for n in NAMES}
     if as_json:
-        rows = [
+        named = [
             {"name": n, "other_names": others[n], "text": f.text, "options": f.defaults}
+            | {"about": about_named(f.options)}
             for n, f in NAMES.items()
         ]
-        click.echo(json.dumps(rows, indent=1))
+        files = [{"ending": ending, "about": about_file(ending)} for ending in READERS]
+        click.echo(json.dumps({"named": named, "files": files}, indent=1))
         return
     groups: dict[str, list[tuple[str, str, str]]] = {}
     for name, family in NAMES.items():

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from scadgen.frame.graph import Frame
     from scadgen.readers.reading import Read
 
-__all__ = ["has_cells", "load_frame", "option", "source_options"]
+__all__ = ["about_file", "about_named", "has_cells", "load_frame", "option", "source_options"]
 
 #: Options of families: type, metavar, what it means; as in the catalogue.
 _FAMILY: dict[str, tuple[type | click.ParamType[float], str, str]] = {
@@ -84,6 +84,11 @@ _READING: dict[
 }
 
 
+#: What --snap does.
+_SNAP = (
+    "move vertices by up to this, so that lengths and angles that are nearly the same are the same"
+)
+
 #: Options that kinds of files have only with --repair, if at all.
 _OF_REPAIR = ("tolerance", "no_split")
 
@@ -104,8 +109,7 @@ def source_options(
             "--snap",
             type=LENGTH,
             metavar="MM",
-            help="Move vertices by up to this, so that lengths and angles that are nearly the same "
-            "are the same.",
+            help=f"{_SNAP[0].upper()}{_SNAP[1:]}.",
         )(function)
         for name, (kind, metavar, what, _) in reversed(_READING.items()):
             text = f"Files: {what}"
@@ -120,6 +124,25 @@ def source_options(
         return function
 
     return add
+
+
+def about_named(names: Iterable[str]) -> dict[str, dict[str, str | None]]:
+    """What each option of a named frame takes, and what it means; as JSON values."""
+    return {name: _about(*_FAMILY[name][1:]) for name in names}
+
+
+def about_file(kind: str) -> dict[str, dict[str, str | None]]:
+    """The same of all options of a kind of file, by the end of its name."""
+    found = {
+        name: _about(metavar, what.rstrip("."))
+        for name, (_, metavar, what, kinds) in _READING.items()
+        if kinds is None or kind in kinds or name in _OF_REPAIR
+    }
+    return {**found, "snap": _about("MM", _SNAP)}
+
+
+def _about(metavar: str | None, what: str) -> dict[str, str | None]:
+    return {"form": metavar, "text": what}
 
 
 def has_cells(name: str, options: Iterable[str]) -> bool:
