@@ -132,8 +132,8 @@ def test_links_lead_somewhere(page):
 
 
 def test_module_map_names_every_module_once():
-    names = [row[0] for row in rows((ROOT / "docs/architecture.md").read_text(), "module")]
-    named = [name for name in names if name.endswith(".py")]
+    text = (ROOT / "docs/architecture.md").read_text()
+    named = re.findall(r"^\| `([\w/]+\.py)` \|", text, re.MULTILINE)
     folders = (ROOT / "scadgen", ROOT / "freecad_workbench/freecad/scadgen")
     there = [
         path.relative_to(folder).as_posix()
@@ -149,7 +149,7 @@ def test_no_class_has_the_name_of_another():
         node.name
         for path in (ROOT / "scadgen").rglob("*.py")
         for node in ast.parse(path.read_text()).body
-        if isinstance(node, ast.ClassDef)
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
     )
     assert [name for name, count in found.items() if count > 1] == []
 
