@@ -20,6 +20,9 @@ BUTTONS = (
     *("Restore", "Preferences"),
 )
 
+#: Where task panels and the tree are: one in FreeCAD 0.20, two in 1.0.
+PANELS = ("Combo View", "Tasks", "Model")
+
 #: Seconds that anything may take.
 PATIENCE = 120
 
@@ -77,8 +80,9 @@ def arrange(width):
     """The panel and the 3D view, and nothing else."""
     window = Gui.getMainWindow()
     for dock in window.findChildren(QtGui.QDockWidget):
-        dock.setVisible(dock.objectName() == "Combo View")
-        if dock.objectName() == "Combo View":
+        shown = dock.objectName() in PANELS
+        dock.setVisible(shown)
+        if shown:
             window.resizeDocks([dock], [width], QtCore.Qt.Horizontal)
     window.statusBar().clearMessage()
 
