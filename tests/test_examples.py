@@ -10,25 +10,36 @@ import sys
 from collections import Counter
 from pathlib import Path
 
+import click
 import kits
 import pytest
 
 from scadgen.cli.main import cli, main
 from scadgen.emit.scad import scad
+from scadgen.emit.scad_parameters import sections
+from scadgen.frame.catalogue import NAMES
 from scadgen.joint.joint import DETAILS
-from scadgen.joint.weave import BUILT_IN, Weave
+from scadgen.joint.weave import BUILT_IN, LIMITS, Weave
+from scadgen.kit.live import PARAMETERS
 from scadgen.kit.store import load
 from scadgen.tools.openscad import render
 from scadgen.tools.stl import check_stl
 
 ROOT = Path(__file__).parent.parent
 EXAMPLES = ROOT / "examples"
-README = (ROOT / "README.md").read_text()
+DOCS = ROOT / "docs"
 PYTHON = re.compile(r"```python\n(.*?)```", re.DOTALL)
 PAGES = [
-    ROOT / page
-    for page in ("README.md", "docs/geometry.md", "docs/architecture.md", "examples/README.md")
+    ROOT / "README.md",
+    ROOT / "CONTRIBUTING.md",
+    *sorted(DOCS.glob("*.md")),
+    ROOT / "examples/README.md",
+    ROOT / "freecad_workbench/README.md",
 ]
+#: An option as it is written on a page; not a rule of a table.
+OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
+#: Programs that the pages name beside scadgen, with their options.
+OTHERS = ("dask ", "openscad ", "python3 -m pip")
 
 
 def python(code, cwd):
@@ -58,8 +69,8 @@ def test_python_example_writes_a_watertight_part(tmp_path):
     )
 
 
-def test_python_in_the_readme_writes_a_watertight_part(tmp_path):
-    (code,) = PYTHON.findall(README)
+def test_python_page_writes_a_watertight_part(tmp_path):
+    (code,) = PYTHON.findall((DOCS / "python.md").read_text())
     python(["-c", code], tmp_path)
     assert check_stl(tmp_path / "basic.stl") > 0
 
@@ -112,23 +123,119 @@ def test_weave_example_makes_a_kit(tmp_path):
 
 
 def test_weave_table_is_the_built_in_weaves():
-    table = {name: tuple(map(float, numbers)) for name, _, *numbers in rows(README, "weave | for")}
+    text = (DOCS / "parameters.md").read_text()
+    table = {name: tuple(map(float, numbers)) for name, _, *numbers in rows(text, "weave | for")}
     assert table == {
         name: (w.ring_ratio, w.span, w.amplitude, w.bend, w.periods) for name, w in BUILT_IN.items()
     }
 
 
-def test_command_table_names_every_option():
-    for words, _, options in rows(README, "command"):
-        command = cli.commands[words.split()[1]]
-        known = [opt for p in command.params for opt in p.opts if opt.startswith("--")]
-        assert sorted(re.findall(r"`(--[a-z-]+)`", f"`{options}`")) == sorted(known), words
+def test_numbers_of_a_weave_are_what_they_may_be():
+    table = rows((DOCS / "parameters.md").read_text(), "number")
+    limits = {re.findall(r"\w+", name)[0]: (float(a), float(b)) for name, a, b, _ in table}
+    assert limits == LIMITS
+
+
+def test_tables_of_parameters_are_those_of_the_code():
+    text = (DOCS / "parameters.md").read_text()
+    assert tuple(row[0] for row in rows(text, "parameter")) == PARAMETERS
+    own = {p.name for p in cli.commands["kit"].params}
+    shape = [row[0] for row in rows(text.split("## Shape parameters")[1], "parameter")]
+    assert {"key", "detail", "weave"} <= set(shape) <= own
+
+
+def every_command():
+    """Commands and commands of commands, each as it is typed."""
+    for name, command in cli.commands.items():
+        inner = getattr(command, "commands", {})
+        yield from [(f"{name} {sub}", one) for sub, one in inner.items()] or [(name, command)]
+
+
+def test_command_table_names_every_command():
+    table = rows((DOCS / "commands.md").read_text(), "command")
+    assert {words.split()[1] for words, *_ in table} == set(cli.commands)
+    (freecad,) = (" ".join(row) for row in table if row[0].startswith("scadgen freecad"))
+    assert all(name in freecad for name in cli.commands["freecad"].commands)
+
+
+@pytest.mark.parametrize(("words", "command"), [*every_command()], ids=str)
+def test_help_says_what_every_option_does(words, command):
+    assert command.help, words
+    options = [p for p in command.params if p.param_type_name == "option"]
+    shown = " ".join(command.get_help(click.Context(command)).split())
+    for option in options:
+        assert option.help, (words, option.name)
+        assert option.opts[-1] in shown, (words, option.name)
+        assert " ".join(option.help.split()) in shown, (words, option.name)
+
+
+def test_every_option_of_a_named_frame_is_in_its_table():
+    table = " ".join(
+        " ".join(row) for row in rows((DOCS / "frames.md").read_text(), "frame | other names")
+    )
+    area = {"rows", "columns", "radius", "outline"}
+    known = {o.replace("_", "-") for family in NAMES.values() for o in family.options} - area
+    assert set(re.findall(r"--([a-z-]+)", table)) == known
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_every_option_on_a_page_is_one(page):
+    known = {o for _, command in every_command() for p in command.params for o in p.opts}
+    known |= {"--help"}
+    for line in page.read_text().splitlines():
+        if not line.strip().startswith(OTHERS):
+            assert set(OPTION.findall(line)) <= known, line
+
+
+def test_targets_of_the_make_page_are_those_of_a_kit():
+    makefile = (ROOT / "templates" / "kit.mk.j2").read_text()
+    (phony,) = re.findall(r"^\.PHONY: (.*)", makefile, re.MULTILINE)
+    table = rows((DOCS / "make.md").read_text(), "target")
+    assert {row[0].split("`")[0] for row in table} == set(phony.split()) - {"FORCE"}
+
+
+def test_sliders_of_the_openscad_page_are_those_of_a_kit():
+    table = rows((DOCS / "openscad.md").read_text(), "slider")
+    named = {name for row in table for name in re.findall(r"\w+", row[0])}
+    own = {p.name for one in sections(kits.kit("hexagonal")) for p in one.parameters}
+    assert named == own - set(PARAMETERS)
+
+
+def test_modules_of_the_openscad_page_are_those_of_a_kit():
+    drawn = scad(kits.kit("hexagonal"))
+    for call, _ in rows((DOCS / "openscad.md").read_text(), "module"):
+        name, arguments = re.fullmatch(r"(\w+)\((.*)\)", call).groups()
+        (real,) = re.findall(rf"^module {name}\((.*)\) ", drawn, re.MULTILINE)
+        real = re.sub(r"\([^()]*\)", "", real)
+        assert arguments.split(", ") == [one.split(" =")[0] for one in real.split(", ")], name
+
+
+def anchors(page):
+    """What links can lead to on a page: its headings, as GitHub names them."""
+    heads = re.findall(r"^#+ (.*)", page.read_text(), re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", head.lower()).replace(" ", "-") for head in heads}
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
 def test_links_lead_somewhere(page):
-    for link in re.findall(r"\]\(([^)#]+)", page.read_text()):
-        assert link.startswith("https://") or (page.parent / link).exists(), link
+    for link in re.findall(r"\]\(([^)]+)", page.read_text()):
+        if link.startswith("https://"):
+            continue
+        file, _, place = link.partition("#")
+        target = page.parent / file if file else page
+        assert target.exists(), link
+        assert not place or place in anchors(target), link
+
+
+def test_every_page_is_reached_from_the_readme():
+    seen, rest = set(), [ROOT / "README.md"]
+    while rest:
+        page = rest.pop()
+        if page not in seen and page.suffix == ".md":
+            seen.add(page)
+            links = re.findall(r"\]\(([^)#]+)", page.read_text())
+            rest += [(page.parent / link).resolve() for link in links if "://" not in link]
+    assert set(PAGES) <= seen
 
 
 def test_module_map_names_every_module_once():

@@ -84,8 +84,8 @@ def test_a_kit_is_all_of_its_files(kind, tmp_path):
 
 
 def test_the_manual_names_every_file_of_a_kit():
-    manual = (Path(__file__).parent.parent / "README.md").read_text()
-    section = manual.split("### A kit's folder\n", 1)[1].split("\n## ", 1)[0]
+    manual = (Path(__file__).parent.parent / "docs" / "commands.md").read_text()
+    section = manual.split("## A kit's folder\n", 1)[1].split("\n## ", 1)[0]
     for name in [*FILES, *files_of(proved_kit("hexagonal")), "placing.svg"]:
         assert f"`{name}`" in section, name
 

@@ -312,9 +312,10 @@ def test_options_are_those_of_the_catalogue():
     assert known == {n: f"Named frames: {text}{whole[n]}." for n, text in OPTIONS.items()}
 
 
-def test_the_table_of_the_readme_is_the_catalogue():
+def test_the_table_of_named_frames_is_the_catalogue():
     head = "| frame | other names |"
-    lines = (ROOT / "README.md").read_text().split(head)[1].split("\n\n")[0].splitlines()[2:]
+    text = (ROOT / "docs" / "frames.md").read_text()
+    lines = text.split(head)[1].split("\n\n")[0].splitlines()[2:]
     area = {"rows", "columns", "radius", "outline"}
     table = {}
     for line in lines:

@@ -19,7 +19,14 @@ __all__ = ["render"]
 @click.command(short_help="Draw a kit's parts with OpenSCAD.")
 @click.argument("folder", metavar="KIT", type=click.Path(path_type=Path))
 @click.option("--part", "parts", multiple=True, help="Which part; several times for several.")
-@click.option("--format", "kind", default="stl", show_default=True, metavar="stl|3mf|png")
+@click.option(
+    "--format",
+    "kind",
+    default="stl",
+    show_default=True,
+    metavar="stl|3mf|png",
+    help="Kind of file; its folder in the kit has the same name.",
+)
 @click.option(
     "--set",
     "changes",
