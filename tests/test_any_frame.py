@@ -254,7 +254,7 @@ def test_a_plan_tells_what_lies_the_other_way_up():
     text = " ".join(plan_text(plan, whole_frame(plan.standing)).split())
     for place in made.placements:
         if place.other_way_up:
-            how = "turned over" if place.pose.over else "as printed"
+            how = "upside down" if place.pose.over else "as printed"
             assert f"{place.part}, {how}," in text
     # The way of a half into the joint that is turned over is the other one's, turned over.
     halves = {}

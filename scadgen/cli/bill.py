@@ -35,7 +35,7 @@ _AT_ONCE = 2
 @click.option(
     "--profile", type=_FILE, metavar="FILE", help="Settings exported from PrusaSlicer (.ini)."
 )
-@click.option("--keep", is_flag=True, help="Put it into the kit: kit.json, parts.csv, README.md.")
+@click.option("--keep", is_flag=True, help="Write it into the kit's files.")
 @click.option("-o", "--output", type=_FILE, metavar="FILE", help="Write it as CSV.")
 @force_option
 @click.option("--json", "as_json", is_flag=True, help="Say it as JSON.")
@@ -52,9 +52,9 @@ def bill(
 ) -> None:
     """Say what a kit's frame needs: parts by number, how many, spares, volume and mass.
 
-    Where PrusaSlicer is installed, each part is sliced for its print time and its filament,
-    supports and all.  Without --profile that is with PrusaSlicer's own settings, layers of
-    0.2 mm and supports from the bed.
+    Where PrusaSlicer is installed, each part is sliced, with supports, for its print time and its
+    filament.  Without --profile, layers are 0.2 mm high and supports stand on the bed; all other
+    settings are PrusaSlicer's own.
 
     \b
     scadgen bill out/hexagonal

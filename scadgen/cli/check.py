@@ -26,8 +26,9 @@ _NAMED = 3
 def check(folder: Path, timeout: float, as_json: bool) -> int:  # noqa: FBT001
     """Check a kit.
 
-    Its files, solids, partition, footprint, gaps and sampling; that it locks, and on which
-    ways it comes apart; and OpenSCAD's drawings.
+    The kit's files; each part as a solid; that the parts of a joint fill it, stay inside it, and
+    keep their clearance; that curves are followed finely enough; that joints lock and come apart;
+    and that OpenSCAD draws the same parts.
 
     Exit status 0 if all is good, 1 if anything is not.
     """

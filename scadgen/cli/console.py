@@ -55,8 +55,8 @@ def force_option(command: Callable[..., Any]) -> Callable[..., Any]:
     option = click.option(
         "--force",
         is_flag=True,
-        help="Write over any file.  Without it, neither what was read nor a file that scadgen "
-        "did not make, or that was changed since, is written over.",
+        help="Write over any file.  Else only files that scadgen made, and that nobody changed "
+        "since, are written over, and none that this command reads.",
     )
     return option(command)
 

@@ -24,7 +24,13 @@ __all__ = ["export", "settings"]
     metavar="stl|3mf|obj|glb",
     help="Kind of file.  [default: by the output's ending]",
 )
-@click.option("--set", "changes", multiple=True, metavar="NAME=MM", help="Another live parameter.")
+@click.option(
+    "--set",
+    "changes",
+    multiple=True,
+    metavar="NAME=MM",
+    help="Another value for a live parameter; several times for several.",
+)
 @click.option(
     "-o", "--output", required=True, type=click.Path(path_type=Path), help="File to write."
 )

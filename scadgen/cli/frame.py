@@ -52,10 +52,17 @@ _FILE = click.Path(path_type=Path)
     help="Radius of all rings, in sides.  [default: as in a kit, by each joint's angles]",
 )
 @click.option(
-    "--snap-angle", type=float, metavar="DEG", help="Turn edges by this much for fewer kinds."
+    "--snap-angle",
+    type=float,
+    metavar="DEG",
+    help="Count angles that differ by up to this as the same.  Nothing moves; it says how many "
+    "kinds are left, and how far ends then miss.",
 )
 @click.option(
-    "--snap-length", type=LENGTH, metavar="MM", help="Change lengths by this much for fewer kinds."
+    "--snap-length",
+    type=LENGTH,
+    metavar="MM",
+    help="Count lengths that differ by up to this as the same, likewise.",
 )
 @source_options()
 @click.option("-o", "--output", type=_FILE, help="Write the frame as JSON.")
@@ -63,7 +70,7 @@ _FILE = click.Path(path_type=Path)
     "--picture",
     type=_FILE,
     metavar="FILE",
-    help="Draw it as SVG, in colours by kind, with rings where it was repaired or cannot be built.",
+    help="Draw it as SVG, in colours by kind; what was repaired or cannot be built is circled.",
 )
 @force_option
 @click.option("--json", "as_json", is_flag=True, help="Say it as JSON.")
@@ -82,11 +89,13 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
 ) -> int:
     """Look at a frame: its joints and edges, and what stands in the way of building it.
 
-    FRAME is a name (see --list) or a file: JSON, SVG, DXF, OBJ or OFF.  Joints are named by
-    letters, and A.2 is the second edge of joint A, counter-clockwise; the angles are those
-    between its edges in that order.  Ring ratios are in sides.
+    FRAME is a name (see --list) or a file: JSON, SVG, DXF, OBJ or OFF.
 
-    Exit status 1 if --side was given and it cannot be built so.
+    The tables call kinds of joints by letters.  A.2 is the second edge of joint A, counted
+    counter-clockwise, and its angles are those between its edges in that order.  Ring ratios are
+    radii of rings, in sides of the tubes.
+
+    Exit status 1 if --side was given and the frame cannot be built with it.
 
     \b
     scadgen frame 3.4.6.4 --edge-length 60 --side 10 --picture tiling.svg

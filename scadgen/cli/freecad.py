@@ -18,7 +18,7 @@ _mod_option = click.option(
     "--mod",
     type=click.Path(path_type=Path),
     metavar="FOLDER",
-    help="FreeCAD's folder of addons.  [default: the one that FreeCAD says, or would take]",
+    help="FreeCAD's folder of addons.  [default: the one that FreeCAD uses]",
 )
 
 
@@ -29,7 +29,7 @@ def freecad() -> None:
 
 @freecad.command("install", short_help="Put the workbench where FreeCAD looks for it.")
 @_mod_option
-@click.option("--copy", is_flag=True, help="Copy it; a link follows this scadgen when it changes.")
+@click.option("--copy", is_flag=True, help="Copy it.  Else it is linked, and changes with scadgen.")
 def _install(mod: Path | None, copy: bool) -> None:  # noqa: FBT001  click passes flags so
     """Install the workbench; restart FreeCAD to see it.
 

@@ -51,37 +51,42 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
     "-o",
     "--output",
     type=click.Path(path_type=Path),
-    help="Folder for the kit; one that is there is replaced.  [default: the frame's name]",
+    help="Folder of the kit; a kit that is there is replaced.  [default: the frame's name]",
 )
-@click.option("--rows", type=int, help="Cells of the frame up.  [default: 2; others 3]")
-@click.option("--columns", type=int, help="Cells of the frame across.  [default: 2; others 3]")
+@click.option(
+    "--rows", type=int, help="Cells, bottom to top.  [default: 3; hexagonal and square 2]"
+)
+@click.option(
+    "--columns", type=int, help="Cells, left to right.  [default: 3; hexagonal and square 2]"
+)
 @click.option(
     "--key",
     metavar="fixed|loose",
-    help="Pegs that are part of the tubes, or pegs put in from the ring's hole.  "
-    "[default: fixed; other frames have loose ones only]",
+    help="fixed: pegs are part of the tubes, for frames made of rows that slide onto parallel "
+    "pegs.  loose: pegs are put in from the ring's hole, for any frame.  "
+    "[default: loose; hexagonal and square fixed]",
 )
 @click.option(
     "--rim",
     default="caps",
     show_default=True,
     metavar="caps|open",
-    help="Other frames: what joints at the rim have where they lack edges of inner ones.  With "
-    "open, hexagonal and square frames are as others: loose pegs, no rows and columns to set.",
+    help="What joints at the rim have in place of the edges that they lack: a connector without a "
+    "tube, or nothing.  With open the kit has no sliders for rows and columns.",
 )
 @click.option(
     "--detail",
     default="standard",
     show_default=True,
     metavar="draft|standard|fine",
-    help="How finely.",
+    help="How finely curved walls are cut into triangles.",
 )
 @click.option(
     "--weave",
     metavar="NAME|FILE",
-    help="A built-in weave, or a JSON file with ring_ratio, span, amplitude, bend, periods and, if "
-    "wanted, stretch.  [default: the one for the joint's edges and the key; other frames: by each "
-    "joint's angles]",
+    help="The curves that connectors grow around, for hexagonal and square: a built-in weave, or a "
+    "JSON file with ring_ratio, span, amplitude, bend, periods and, if wanted, stretch.  "
+    "[default: by each joint's angles]",
 )
 @_lengths
 @source_options(without=("rows", "columns", "edge_length"))
@@ -93,19 +98,21 @@ def _lengths(function: Any) -> Any:  # noqa: ANN401  click's decorators are type
     help="For the bill of materials: PLA, PETG, ABS, ASA, PC or PA.",
 )
 @click.option(
-    "--unchecked", is_flag=True, help="Make the kit even if its joints are not proved to lock."
+    "--unchecked", is_flag=True, help="Prove nothing: the joints may not lock, or not come apart."
 )
-@click.option("--jobs", type=int, metavar="N", help="Processes.  [default: one a core]")
+@click.option(
+    "--jobs", type=int, metavar="N", help="How many processes compute.  [default: one a core]"
+)
 @click.option(
     "--dask",
     metavar="ADDRESS",
-    help="Compute on a Dask cluster: its scheduler, as tcp://HOST:PORT.",
+    help="Compute on the Dask cluster with this scheduler: tcp://HOST:PORT.",
 )
 @click.option(
     "--no-cache",
     is_flag=True,
-    help="Neither use nor keep the joints and proofs of other kits in SCADGEN_CACHE, by default "
-    "~/.cache/scadgen.",
+    help="Compute everything, and keep none of it.  Else joints and proofs are kept for other kits "
+    "in the folder that SCADGEN_CACHE names, by default ~/.cache/scadgen.",
 )
 @force_option
 @click.option("--json", "as_json", is_flag=True, help="Say what was made as JSON.")
@@ -123,13 +130,15 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
 ) -> None:
     """Make a kit for a frame.
 
-    FRAME is hexagonal or square, another name that scadgen frame --list shows, or a file:
-    JSON, SVG, DXF, OBJ or OFF.  Hexagonal and square frames have rows and columns that can be
-    set later; all others, and these with a radius or an outline, are as they are.
+    FRAME is a name that scadgen frame --list shows, such as hexagonal, or a file: JSON, SVG, DXF,
+    OBJ or OFF.  The rows and columns of a named tiling are sliders in the kit too, unless it
+    fills a radius or an outline.
 
-    Writes kit.json, an OpenSCAD file with sliders, a Makefile, a README and a preview, all or
-    nothing, once it is proved that every joint locks and comes apart without its pegs.  Lengths
-    are in mm, or have a unit: 8, 8mm, 0.8cm or 0.3in.
+    It first proves that every joint locks, and comes apart without its pegs.  Then it writes the
+    kit's folder: an OpenSCAD file with sliders, a FreeCAD macro, a Makefile, a README with what to
+    print, pictures, and kit.json.  If anything fails, nothing is written.
+
+    Lengths are in mm, or have a unit: 8, 8mm, 0.8cm or 0.3in.
 
     \b
     scadgen kit hexagonal -o out/hexagonal

@@ -20,16 +20,17 @@ _ORDERED, _HELD = 0.8, 0.95
     "-o",
     "--output",
     type=click.Path(path_type=Path),
-    help="Folder for the plan; one that is there is replaced.  [default: plan in the kit's]",
+    help="Folder of the plan; a plan that is there is replaced.  [default: plan in the kit's]",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the plan as JSON.")
 def plan(folder: Path, output: Path | None, as_json: bool) -> int:  # noqa: FBT001
     """Plan in which order a frame goes together, and prove every step.
 
-    Each part goes in on a way that is proved to touch nothing that is there then; rows of
-    parallel pegs go in as one.  Writes plan.json, plan.txt and a numbered picture a step.
+    For each part there is a way in that is proved to touch nothing that is there already.  Rows on
+    parallel pegs go in as one.  Writes the steps as plan.txt, as a picture each, and as plan.json.
 
-    Exit status 0 if every step is proved and the finished frame holds, 1 if not.
+    Exit status 0 if every step is proved and nothing in the finished frame can move unless a peg
+    slides, 1 if not.
 
     \b
     scadgen plan out/hexagonal

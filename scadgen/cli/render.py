@@ -32,9 +32,15 @@ __all__ = ["render"]
     "changes",
     multiple=True,
     metavar="NAME=MM",
-    help="Another live parameter, or number_height: of the numbers on tubes.",
+    help="Another value for a live parameter, or for number_height, the height of the numbers on "
+    "tubes; several times for several.",
 )
-@click.option("--jobs", type=click.IntRange(min=1), default=os.cpu_count() or 1, help="At once.")
+@click.option(
+    "--jobs",
+    type=click.IntRange(min=1),
+    default=os.cpu_count() or 1,
+    help="How many parts are drawn at once.",
+)
 @timeout_option
 def render(
     folder: Path,
@@ -44,9 +50,9 @@ def render(
     jobs: int,
     timeout: float,
 ) -> None:
-    """Draw each printed part with OpenSCAD into the kit's stl, 3mf or png folder.
+    """Draw a kit's parts with OpenSCAD into its folder stl, 3mf or png.
 
-    Every log is read and every STL read back: a drawing is good only if it is watertight.
+    An STL is read back and must be watertight, and OpenSCAD must not have complained.
     """
     from scadgen.cli.export import settings
     from scadgen.emit.scad_numbers import HEIGHT

@@ -21,7 +21,9 @@ _FILE = click.Path(path_type=Path)
 
 @click.command(short_help="WeaveSearch a better weave.")
 @click.option("--valence", default=3, show_default=True, metavar="N", help="Edges at the joint.")
-@click.option("--key", default="fixed", show_default=True, metavar="fixed|loose", help="Key style.")
+@click.option(
+    "--key", default="fixed", show_default=True, metavar="fixed|loose", help="Style of the pegs."
+)
 @click.option(
     "--arm",
     default=0.2,
@@ -37,13 +39,20 @@ _FILE = click.Path(path_type=Path)
     metavar="N",
     help="Rounds of the search: each looks at 32 weaves and proves the best two.",
 )
-@click.option("--seed", default=1, show_default=True, help="The same finds the same.")
-@click.option("--jobs", type=int, metavar="N", help="Processes.  [default: one a core]")
+@click.option(
+    "--seed",
+    default=1,
+    show_default=True,
+    help="Start of the random numbers: the same seed finds the same weaves.",
+)
+@click.option(
+    "--jobs", type=int, metavar="N", help="How many processes compute.  [default: one a core]"
+)
 @click.option(
     "--record",
     type=_FILE,
     metavar="FILE",
-    help="Write down all that is found; one that is there is gone on with.",
+    help="Keep all that is found in this file; if it is there, the search goes on from it.",
 )
 @click.option(
     "-o", "--output", type=_FILE, help="Write the tightest weave for scadgen kit --weave."
@@ -64,9 +73,10 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
 ) -> int:
     """WeaveSearch the weaves of a regular joint for the least play.
 
-    Prints those that no other beats both in play and in thickness of the arms.  Each of them
-    is proved as scadgen kit proves a joint: it locks, also at twice the samples, comes apart
-    in this key style, and its connectors own all of their tubes' faces.
+    Play is how far a tube's tip can move, in mm for each mm of clearance.  Prints the weaves that
+    no other beats both in little play and in thick arms.  Each of them is proved as scadgen kit
+    proves a joint: it locks, also with twice as many points along its curves; it comes apart with
+    these pegs; and each connector has all of its tube's face.
 
     Exit status 0 if one was found, 1 if none.
 

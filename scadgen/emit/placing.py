@@ -46,8 +46,9 @@ def placing(kit: Kit) -> str:
     text
         SVG: elements have their names and joints their numbers and letters, dark squares stand
         where a peg goes in, and short stubs are loose connectors, by the end of their names.
-        A white dot is on the near end of each element whose ends differ.
-        What lies the other way up has a star; a joint has one if its halves do.  A legend says so.
+        A white dot is on the near end of each element whose ends differ.  A star is at what
+        lies upside down from how it was printed; a joint has one if its half A does.  A legend
+        says so.
     """
     points = np.array([p.pose.at[:2] for p in kit.placements]) * (_EDGE, -_EDGE)
     corner = points.min(axis=0) - _MARGIN
@@ -103,7 +104,8 @@ def _legend(kit: Kit, dotted: Collection[str], top: float) -> list[str]:
         words = f"a connector without a tube: {caps[0].partition('_')[2]} is {caps[0]}"
         said.append((partial(_tube, role="cap"), words))
     if any(placement.other_way_up for placement in kit.placements):
-        said.append((partial(_words, words="*"), "turned over: that face is down that was up"))
+        words = "upside down from how it was printed; at a joint, half A is"
+        said.append((partial(_words, words="*"), words))
     lines = []
     for number, (shape, words) in enumerate(said):
         at = np.array([_MARGIN / 2, top + _LEGEND * (number + 0.5)])

@@ -106,7 +106,9 @@ class Kinds:
         lengths
             ``(m,) float``: theirs; the same for those that may be the same part.
         sockets
-            For each kind a number under that of all kinds: what an element ends in at a key.
+            For each kind of joint, the number of the socket that an element ends in at a key.
+            Kinds with the same socket have the same number, which is less than the number of
+            kinds.
         slots
             Which connectors are the same.
         twists
@@ -115,7 +117,8 @@ class Kinds:
         Returns
         -------
         ends
-            Connectors have the number of all kinds, and more than that by what they are.
+            An end is a socket, by its number in `sockets`, or a connector.  Connectors are
+            numbered on from the number of kinds, the same ones alike.
         """
         place = self.kind_of[edges], self.slots
         keyed = np.zeros(slots.what.shape, dtype=bool)
@@ -149,12 +152,13 @@ def choose_kinds(
     same
         What of it is the same.
     rim
-        Whether a joint that lacks edges of another gets caps in their place.  Without, only
-        lone ends of edges get some.
+        Whether a joint that has fewer edges than another gets caps in their place.  If not, only
+        lone ends of edges get caps.
     refused
-        Joints to keep out, by other keys, as far as that goes.
+        Joints that could not be proved.  Other keys are chosen, so that none of them occurs if
+        that can be.
     in_rows
-        Whether keys are to be such that the frame is rows that slide onto parallel pegs.
+        Whether to choose keys for which the frame is made of rows that slide onto parallel pegs.
 
     Raises
     ------

@@ -109,7 +109,7 @@ _MEANINGS: tuple[tuple[str, Callable[[Floats, float], str], str], ...] = (
     ("along", _across, "goes along the frame"),
     ("joint", lambda at, size: joint_mark(at, 1, "", size, busy=True), "joint with its number"),
     ("kind", _written("A"), "kind of joint, by its letter"),
-    ("other", _written("*"), "lies turned over, half B as printed"),
+    ("other", _written("*"), "upside down from how it was printed; half B: as printed"),
 )
 
 

@@ -59,7 +59,7 @@ def plan_text(plan: Plan, whole: Whole) -> str:
             if not move.proved
         ]
     if plan.left:
-        lines.append(f"{_INDENT}not proved: no way is known to join {_bill(plan, plan.left)}")
+        lines.append(f"{_INDENT}not proved: no way was found to join {_bill(plan, plan.left)}")
     lines.append(f"finished: {finished(plan, whole)}")
     lines += [f"can move: {one}" for one in movable(plan, whole)]
     return "".join(f"{_wrapped(line)}\n" for line in lines)
@@ -77,9 +77,9 @@ def _wrapped(line: str) -> str:
 def _pegs(pegs: Pegs) -> str:
     """How many pegs there are, and how many there have to be."""
     if pegs.fixed:
-        rim = f"; {_count(pegs.rim, 'peg')} at the rim, where a key has no edge" if pegs.rim else ""
-        return f"pegs: {pegs.fixed} on elements, no loose one{rim}"
-    return f"pegs: {pegs.loose} loose ones; a frame like this needs at least {pegs.least}"
+        rim = f"; {pegs.rim} loose, at the rim, where a key has no edge" if pegs.rim else ""
+        return f"pegs: {pegs.fixed} as part of edge elements{rim}"
+    return f"pegs: {pegs.loose}, all loose; this frame needs at least {pegs.least}"
 
 
 def sentence(plan: Plan, number: int) -> str:
@@ -126,7 +126,7 @@ def title(plan: Plan, number: int) -> str:
 
 
 def _by_way(plan: Plan, step: Step) -> Iterator[tuple[str, list[Move]]]:
-    """Moves that go in alike, with how that is."""
+    """How moves go in, and the moves that go in so."""
     moves = sorted(step.moves, key=lambda move: (_how(plan, move), move.joint))
     for how, group in groupby(moves, key=lambda move: _how(plan, move)):
         yield how, list(group)
@@ -145,7 +145,7 @@ def _how(plan: Plan, move: Move) -> str:
 
 
 def _items(plan: Plan, number: int, moves: Iterable[Move]) -> Iterator[str]:
-    """What goes in, and at which joints: what is alike together."""
+    """What goes in, and at which joints; the same parts are named once."""
     joints: dict[str, list[int]] = {}
     for move in moves:
         joints.setdefault(_name(plan, move.parts), []).extend(joints_of(plan, number, move))
@@ -168,11 +168,11 @@ def _name(plan: Plan, parts: Sequence[int]) -> str:
 
 
 def _single(plan: Plan, part: int) -> str:
-    """A part's name, and how it lies if that is the other way up than others."""
+    """A part's name, and how it lies if other pieces of its role lie the other way up."""
     place = plan.standing.kit.placements[part]
     if not place.other_way_up:
         return place.part
-    return f"{place.part}, {'turned over' if place.pose.over else 'as printed'},"
+    return f"{place.part}, {'upside down' if place.pose.over else 'as printed'},"
 
 
 def _laid(plan: Plan) -> Iterator[str]:
@@ -241,13 +241,15 @@ def finished(plan: Plan, whole: Whole) -> str:
     if not whole.held:
         moving = whole.loose[-1].parts
         at = _numbers(plan, (n for part in moving for n in plan.standing.sites_of[part]))
-        what = f"{_bill(plan, moving)} at {at}" if moving else "no proof is found that nothing"
-        return f"NOT HELD: {what} can move"
+        what = f"{_bill(plan, moving)} at {at}" if moving else ""
+        return (
+            f"NOT HELD: {what} can move" if what else "NOT HELD: not proved that nothing can move"
+        )
     least = (
-        "nothing moves but pegs" if whole.moves == "pegs" else "nothing moves unless a peg slides"
+        "only pegs can move" if whole.moves == "pegs" else "nothing can move unless a peg slides"
     )
-    proof = f"proved by {whole.forces} contacts in balance"
-    return f"{least}, {proof}; only the fit of the pegs holds in what went in last"
+    proof = f"proved by forces in balance at {whole.forces} contacts"
+    return f"{least}; {proof}. Only friction holds the pegs"
 
 
 def movable(plan: Plan, whole: Whole) -> list[str]:
