@@ -121,7 +121,7 @@ def _halves(kit: Kit) -> str:
 
 
 def _counted(one: Joint, part: str, count: int) -> str:
-    """How many of a part a joint has, as which half, and where from its key it lies turned over."""
+    """How many of a part a joint has, as which half, and at which angle one lies upside down."""
     mine = [p for p in one.pieces if p.part == part]
     roles = {p.role for p in mine}
     notes = []
@@ -130,7 +130,7 @@ def _counted(one: Joint, part: str, count: int) -> str:
         if turns and len(one.half_parts) > 1:
             notes.append(half if len(roles) == 1 else f"{half} at {turns}")
     if over := [f"{p.pose.degrees:.4g}°" for p in mine if p.other_way_up]:
-        notes.append(f"turned over at {', '.join(over)}")
+        notes.append(f"upside down at {', '.join(over)}")
     return f"{count} x `{part}`" + (f" ({', '.join(notes)})" if notes else "")
 
 
