@@ -432,7 +432,9 @@ def test_the_bill_says_what_is_at_the_ends_of_elements(made):
 def test_a_second_shape_of_a_half_is_not_told_as_one_turned_over():
     said = words(ladder())
     assert said["half_A1_over"] == "Locking half A1 - second shape"
-    assert "`half_A1_over` has a shape of its own: no other half does in its place." in readme(ladder())
+    assert "`half_A1_over` has a shape of its own: no other half does in its place." in readme(
+        ladder()
+    )
 
 
 @pytest.mark.parametrize("narrow", [26, 40])

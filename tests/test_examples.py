@@ -17,11 +17,11 @@ import pytest
 from scadgen.cli.main import cli, main
 from scadgen.emit.scad import scad
 from scadgen.emit.scad_parameters import sections
-from scadgen.frame.catalogue import NAMES
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.weave import BUILT_IN, LIMITS, Weave
 from scadgen.kit.live import PARAMETERS
 from scadgen.kit.store import load
+from scadgen.plane.catalogue import NAMES
 from scadgen.tools.openscad import render
 from scadgen.tools.stl import check_stl
 

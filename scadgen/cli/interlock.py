@@ -34,7 +34,7 @@ _SHUT = 1e-3
     "--hold",
     multiple=True,
     metavar="NAMES",
-    help="Parts, files or patterns (lid.*) that are held fast, with commas between; adds up.  "
+    help="Parts, files or patterns (lid.*) that are held, with commas between; may be repeated.  "
     "[default: the largest]",
 )
 @click.option(
@@ -73,17 +73,18 @@ def interlock(  # noqa: PLR0913, PLR0917  one argument an option
 ) -> int:
     """Say whether parts, placed as assembled, hold each other: STL, 3MF, OBJ, PLY or OFF.
 
-    A file with several bodies is several parts: name.1, name.2, or as its objects are named.
-    To first order, from the faces that touch; locked means proven, with a certificate that is
-    checked again.  Round faces that only their facets lock count as round if the parts as
-    they are can turn ten tolerances without overlap.  Keys are parts that were taken out, in
-    that order, straight; with --apart on any way that is found.
+    A file with several bodies is several parts: name.1, name.2, ..., or as its objects are named.
 
-    With --apart the answer is one of these.  TakenApart: all parts were taken out, alone or in
-    groups.  Captive: they move, but no way out was found.  Locked.  Not settled: the search
-    did not end, or several parts may have to move in turns.
+    Locked means proved: from the faces that touch, no part can begin to move.  Movable means that a
+    motion was found.  Keys are the parts that were taken out, in that order: straight, or with
+    --apart on any way that was found.  Facets of round parts do not count as a lock if the parts
+    can turn by ten tolerances without overlap.
 
-    Exit status 0 if they are locked, 1 if something can move; with --apart 0 if they come
+    With --apart the answer is one of four.  Apart: all parts were taken out, alone or in groups.
+    Captive: parts can move, but no way out was found.  Locked: nothing can begin to move.  Not
+    settled: the search did not end, or several parts may have to move in turns.
+
+    Exit status 0 if the parts are locked, 1 if something can move.  With --apart: 0 if they come
     apart, 1 if not.
 
     \b
