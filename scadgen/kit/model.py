@@ -43,7 +43,7 @@ DENSITIES: Mapping[str, float] = {
     "PA": 1.12,
 }
 
-#: What is done where a joint at the rim lacks edges of an inner one.
+#: What stands at a joint of the rim in place of the edges that it lacks: caps, or nothing.
 RIMS = ("caps", "open")
 
 
@@ -54,13 +54,13 @@ class PartEnd:
     Parameters
     ----------
     joint
-        The kind of joint that it belongs to, by name: the first of those that have it.
+        Name of the kind of joint that it belongs to; the first, if several kinds have it.
     slot
-        Whose connector it is there, counted from the first key; None for a key's end, which
-        fits every slot with a key.
+        The slot of its connector in that joint.  None for a socket or a fixed peg, which fit
+        every slot with a key.
     over
-        Whether the connector is turned over; of a half, whether it is half B, turned over, where
-        that is another shape than half A.
+        Whether the connector is turned over.  Of a half: whether it is half B of a joint whose
+        half B has another shape than half A.
     """
 
     joint: str
@@ -82,10 +82,10 @@ class Part(AffineSolid):
     role
         What it is for; one of `roles.PART_ROLES`.
     ends
-        What it ends in: near and far end of an element, the one of a connector, a half or a
-        loose peg, none of a tube.
+        What it ends in.  An element has a near and a far end; a connector, a half and a loose
+        peg have one; a tube has none.
     length
-        Of an element or a tube, in edge lengths; else 0.
+        Length of an element or a tube, in edge lengths; 0 for other parts.
     """
 
     role: str
@@ -158,8 +158,8 @@ class Way:
     name
         What comes out.
     moving
-        Numbers, in the joint's `pieces`, of those that move as one; with their tubes, those
-        that have one.
+        Which of the joint's `pieces` move, as one, by number; each with its tube, if it has
+        one.
     path
         The motion, in sides.
     """
@@ -197,7 +197,7 @@ class Joint:
     name
         A letter; empty in a frame that has one kind.
     turns
-        Direction of each edge, in degrees, ascending from that of its first key, 0.
+        Direction of each edge, in degrees, ascending; that of the first key is 0.
     keys
         Which of the edges have a split connector; the first one does.
     caps
@@ -218,7 +218,7 @@ class Joint:
     verdicts
         What was proved of it, by name; empty if it was not checked.
     ways
-        The ways on which its pieces come apart, in order; likewise.
+        The ways on which its pieces come apart, in order; empty if it was not checked.
     """
 
     name: str
@@ -274,7 +274,8 @@ class Kit:
     command
         The command line that makes this kit again.
     values
-        Default of every live parameter the kit has, in mm.  A solid kit has no ``bore``.
+        Default of each live parameter that the kit has, in mm.  A kit without a bore has no
+        ``bore``.
     ranges
         What each live parameter may be; every one in `values` has at least one.
     parts
@@ -288,15 +289,15 @@ class Kit:
     placements
         Where everything stands: the elements by edge, then the pieces by vertex.
     tiling
-        Whose cells the frame is, if it has rows and columns that can be set.
+        The tiling whose cells make the frame; None if rows and columns cannot be set.
     cells
-        What stands in each of them.
+        What stands in a cell of the tiling.
     rows, columns
-        How many there are; 0 without.
+        How many cells there are; 0 without a tiling.
     rim
-        Whether joints at its rim have caps where they lack edges; one of `RIMS`.
+        One of `RIMS`.
     refused
-        Joints that were kept out, by other keys.
+        Joints that could not be proved, so that other keys were chosen.
     material
         What it is to be printed with; one of `DENSITIES`.
     slicing

@@ -45,26 +45,27 @@ class Request:
     rows, columns
         How many of them.
     key
-        One of `KEYS`.  A fixed peg is part of a tube, which rows that slide need.
+        One of `KEYS`.  With fixed pegs the frame must be made of rows that slide onto parallel
+        pegs.
     detail
         Name of a level of `DETAILS`.
     weave
-        The weave of all joints, which must be regular; by default each joint has that of its own
-        angles, or of `regular`.
+        The weave of all joints, if `regular`.  By default it is the built-in one then; else each
+        joint has a weave by its own angles.
     regular
-        Whether all joints are one regular joint with its built-in weave, and keys in rows.
+        Whether all joints are one regular joint, with keys that make rows.
     values
-        Live parameters, in mm; those not given follow from the side.  A bore above zero
-        makes a bored kit.  An edge length makes a frame as large that its shortest edge is
-        as long.
+        Live parameters, in mm.  Those not given follow from the side.  A bore above zero makes
+        a kit with a bore.  An edge length scales the frame until its shortest edge has it.
     command
         The command line that makes the kit again.
     rim
         One of `RIMS`.
     resizable
-        Whether the frame may be made as large as its joints need.
+        Whether the frame may be made larger, as its joints need it.
     refused
-        Joints to keep out, by other keys, as far as that goes.
+        Joints that could not be proved.  Other keys are chosen, so that none of them occurs if
+        that can be.
 
     Raises
     ------
