@@ -24,6 +24,9 @@ _NAMED, _SORTS = 12, 6
 #: Letters that a picture's title has at most, before it sums up.
 _LONG = 190
 
+#: What parts are called that go in as one.
+_JOINED = "the joined parts"
+
 #: What parts are called together, by their role: one of them, and several.
 _CALLED = {
     "row": ("edge element", "edge elements"),
@@ -150,7 +153,7 @@ def _items(plan: Plan, number: int, moves: Iterable[Move]) -> Iterator[str]:
     for move in moves:
         joints.setdefault(_name(plan, move.parts), []).extend(joints_of(plan, number, move))
     for name, where in joints.items():
-        count = f"{len(where)} x " if len(where) > 1 and not name.endswith("as one") else ""
+        count = f"{len(where)} x " if len(where) > 1 and not name.startswith(_JOINED) else ""
         yield f"{count}{name} at {_numbers(plan, where)}"
 
 
@@ -161,9 +164,9 @@ def _as_half(plan: Plan, moves: Sequence[Move]) -> str:
 
 
 def _name(plan: Plan, parts: Sequence[int]) -> str:
-    """A part's name; of several that are joined already their names."""
+    """A part's name; of several that are joined already, all names."""
     if len(parts) > 1:
-        return f"{_bill(plan, parts)}, joined already, as one"
+        return f"{_JOINED} ({_bill(plan, parts)})"
     return _single(plan, parts[0])
 
 
