@@ -5,6 +5,7 @@ import importlib
 import json
 import os
 import re
+import shlex
 import subprocess
 import sys
 from collections import Counter
@@ -185,6 +186,14 @@ def test_every_option_on_a_page_is_one(page):
     for line in page.read_text().splitlines():
         if not line.strip().startswith(OTHERS):
             assert set(OPTION.findall(line)) <= known, line
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_commands_on_a_page_can_be_typed(page):
+    for line in re.findall(r"^    (scadgen [^\n]*)", page.read_text(), re.MULTILINE):
+        _, name, *words = shlex.split(line, comments=True)
+        # Refuses what the command has not; nothing is run.
+        cli.commands[name].make_context(name, words)
 
 
 def test_targets_of_the_make_page_are_those_of_a_kit():
