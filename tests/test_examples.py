@@ -236,6 +236,10 @@ def test_links_lead_somewhere(page):
         assert not place or place in anchors(target), link
 
 
+def test_the_readme_is_one_page():
+    assert len((ROOT / "README.md").read_text().splitlines()) <= 80
+
+
 def test_every_page_is_reached_from_the_readme():
     seen, rest = set(), [ROOT / "README.md"]
     while rest:
