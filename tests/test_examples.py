@@ -236,6 +236,14 @@ def test_links_lead_somewhere(page):
         assert not place or place in anchors(target), link
 
 
+def test_play_on_the_page_on_printing_is_that_of_the_figures():
+    figures = rows((DOCS / "geometry.md").read_text().split("## Figures")[1], "weave")
+    plays = [float(row[-1]) for row in figures]
+    table = rows((DOCS / "printing.md").read_text().split("## How much")[1], "joint")
+    stated = [[float(cell.removesuffix(" mm")) for cell in row[1:]] for row in table]
+    assert stated == [[round(play), round(0.2 * play, 1)] for play in plays]
+
+
 def test_the_readme_is_one_page():
     assert len((ROOT / "README.md").read_text().splitlines()) <= 80
 

@@ -126,7 +126,9 @@ NAMES: Mapping[str, Family] = MappingProxyType(
         "4.8.8": _uniform("4.8.8", "squares and octagons"),
         "3.3.4.3.4": _uniform("3.3.4.3.4", "squares, each between four triangles"),
         "3.3.3.4.4": _uniform("3.3.3.4.4", "rows of squares and of triangles"),
-        "3.3.3.3.6": _uniform("3.3.3.3.6", "hexagons, each between triangles; has a hand"),
+        "3.3.3.3.6": _uniform(
+            "3.3.3.3.6", "hexagons, each between triangles; differs from its mirror image"
+        ),
         "3.12.12": _uniform("3.12.12", "triangles and dodecagons"),
         "4.6.12": _uniform("4.6.12", "squares, hexagons and dodecagons"),
         "V3.6.3.6": _laves("3.6.3.6", "rhombs of 60 degrees"),
