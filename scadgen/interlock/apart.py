@@ -66,7 +66,7 @@ def take_apart(
     near
         The distance up to which they do.
     held
-        Numbers of the parts that are held fast, and so stay together.
+        Numbers of the parts that are held, and so stay together.
     steps
         Steps of all searches together; with 0 only straight ways are tried.
     interference
@@ -77,7 +77,7 @@ def take_apart(
     Returns
     -------
     apart
-        The same for the same input.
+        What came out, and what is left; the same for the same input.
 
     Raises
     ------

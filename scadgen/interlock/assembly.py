@@ -59,7 +59,7 @@ class Assembly:
 
 
 def largest_part(meshes: Sequence[Mesh]) -> int:
-    """Number of the part with the largest box: the one to hold where none is named."""
+    """Number of the part with the largest box, which is held if nobody says which."""
     return int(np.argmax([np.ptp(points, axis=0).prod() for points, _ in meshes]))
 
 
@@ -73,7 +73,7 @@ def make_assembly(meshes: Sequence[Mesh], contacts: Contacts, held: Collection[i
     contacts
         Where they touch.
     held
-        Numbers of the parts that are held fast: some, but not all.
+        Numbers of the parts that are held: some, but not all.
 
     Raises
     ------

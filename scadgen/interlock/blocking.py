@@ -46,8 +46,8 @@ def movable_groups(
     Returns
     -------
     groups
-        For each, ascending, the directions in which it is the least group of one of its parts,
-        ``(k, 3) float``; the smallest groups first.
+        The smallest first.  Each is the numbers of its parts, ascending, and the directions in
+        which one of these parts can begin to move only with all the others, ``(k, 3) float``.
     """
     parts = sorted(present)
     place = np.full(max(parts) + 1, -1)

@@ -76,7 +76,7 @@ def escape(
     seed
         The same seed finds the same.
     steps
-        Steps of all tries after which no other begins; straight ways are tried before.
+        No other try begins after so many steps of all tries.  Straight ways are tried first.
     far
         How far apart the convex hulls are to get, in mm; None: apart at all.
     allowed

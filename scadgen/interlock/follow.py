@@ -92,7 +92,8 @@ def first_touch(meshes: Sequence[Mesh], motion: Motion) -> tuple[float, int | No
     Returns
     -------
     time
-        When they touch; or when they have gone the length of all parts, or once round.
+        When they touch.  If they touch nothing: when they have gone the length of all parts, or
+        once round.
     part
         Number of what a part that moves touches, None if nothing.
 

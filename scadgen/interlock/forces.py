@@ -78,7 +78,7 @@ def equilibrium(rows: csr_array, rounding: float = ROUNDING) -> Floats | None:
 
 
 def balanced(rows: csr_array, forces: Floats) -> Floats | None:
-    """Forces near an equilibrium put right in it, the least of them 1.
+    """Correct forces that are nearly in equilibrium; the least of them is 1 then.
 
     Returns
     -------

@@ -57,16 +57,16 @@ def _alike_keys(keys: Sequence[Key]) -> list[int]:
 def alike_pieces(
     pieces: Sequence[Piece], groups: Sequence[Hashable], *, turned: bool
 ) -> list[tuple[int, bool]]:
-    """For each piece, which is the first that is the same part, and if that is turned over for it.
+    """For each piece, the first that is the same part, and whether one lies upside down.
 
     Parameters
     ----------
     pieces
         Connectors, or halves.
     groups
-        For each something that is the same in those that may be the same part.
+        One value a piece; only pieces with the same value may be the same part.
     turned
-        Whether they may be turned over about their edges for it.
+        Whether pieces are the same part too if one is turned over about its edge.
     """
     found = [(number, False) for number in range(len(pieces))]
     for numbers in _sizes(pieces, groups).values():
@@ -116,7 +116,7 @@ class NamedPiece:
     piece
         Its shape.
     second
-        Whether it is half B turned over, where that is another shape than half A.
+        Whether it is a half B that has another shape than half A.
     """
 
     number: int

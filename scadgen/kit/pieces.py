@@ -57,8 +57,8 @@ class Pieces:
     key
         What its keys are like.
     connectors
-        Of each edge; in a regular joint one and the same.  Where it is another edge's turned
-        over, it is that to the last digit.
+        Of each edge.  In a regular joint they are all the same.  If one is another one turned
+        over, it is so to the last digit.
     halves
         Of each edge that is a key's, half A, and half B turned over about its edge, which
         are the same where the joint is alike on both sides of it.

@@ -32,14 +32,14 @@ _SLACK = 1e-9
 
 
 def edge_range(ends: Iterable[tuple[Key, bool]], times: float) -> Range:
-    """Of the edge length, for an element that is some times as long.
+    """The range of the edge length that an element needs.
 
     Parameters
     ----------
     ends
         The key of the joint at each end, and whether it has a socket there.
     times
-        Its length in edge lengths.
+        The element's length, in edge lengths.
     """
     sides, others = TUBE, dict.fromkeys(("clearance", "peg_length", "peg_clearance"), 0.0)
     for key, socket in ends:

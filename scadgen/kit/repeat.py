@@ -23,7 +23,7 @@ _DECIMALS, _AXES = 9, 6
 def cells_of(places: Arrangement, block: Block, unit: float) -> Cells | None:
     """What stands in each cell of a tiling.
 
-    Vertices at the rim of the block are as those inside, whatever stands there in the block.
+    A vertex at the rim of the block gets what a vertex inside has.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def cells_of(places: Arrangement, block: Block, unit: float) -> Cells | None:
     Returns
     -------
     cells
-        None if not all cells are alike: keys were chosen otherwise in some.
+        None if not all cells are alike, because other keys were chosen in some.
     """
     found = _Repeat(places, block, unit)
     return found.cells() if found.is_alike else None

@@ -72,7 +72,7 @@ class Room:
         return self.apart.largest_side(float(((self.frame.lengths - fixed) / (one - fixed)).min()))
 
     def least_scale(self, side: float) -> float:
-        """How many times as large the frame must be at least for a side, in mm."""
+        """By what factor the frame must grow at least for a side, in mm."""
         on_edges = float((self._needs(side) / self.frame.lengths).max())
         return max(on_edges, self.apart.least_scale(side))
 
@@ -129,7 +129,7 @@ class Room:
 
 
 def reaches(directions: Iterable[float], ring_ratio: float) -> tuple[float, float]:
-    """How far a joint's domain reaches: to where its tubes start, and pegs, both in sides.
+    """How far from its centre a joint's tubes start, and its pegs, both in sides.
 
     Parameters
     ----------

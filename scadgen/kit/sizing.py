@@ -100,7 +100,7 @@ class Design:
 
 
 def design(request: Request) -> Design:
-    """The frame as large as it is to be, and what stands where.
+    """Choose the frame's size, its kinds of joints, and their weaves.
 
     Raises
     ------
@@ -123,7 +123,7 @@ def design(request: Request) -> Design:
 
 
 def growth(request: Request) -> float:
-    """How many times as large a frame has to be for its joints.
+    """By what factor a frame must grow to have room for its joints.
 
     Its shortest edges then are whole sides, six at least.
 

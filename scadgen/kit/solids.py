@@ -40,7 +40,8 @@ class Solids:
     edges
         ``(m, 2) int``: the frame's.
     lengths
-        ``(m,) float``: theirs, in edge lengths; the same for those that may be the same part.
+        ``(m,) float``: lengths of the edges, in edge lengths; equal for edges that may have the
+        same part.
     pieces
         Of each kind of joint.
     regular
