@@ -104,7 +104,7 @@ def _legend(kit: Kit, dotted: Collection[str], top: float) -> list[str]:
         words = f"a connector without a tube: {caps[0].partition('_')[2]} is {caps[0]}"
         said.append((partial(_tube, role="cap"), words))
     if any(placement.other_way_up for placement in kit.placements):
-        words = "upside down from how it was printed; at a joint, half A is"
+        words = "upside down from how it was printed (at a joint: its half A)"
         said.append((partial(_words, words="*"), words))
     lines = []
     for number, (shape, words) in enumerate(said):

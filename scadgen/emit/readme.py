@@ -97,6 +97,7 @@ def _joint(kit: Kit, one: Joint) -> dict[str, Any]:
     return {
         "name": one.name,
         "title": one.title,
+        "plain_bill": [_count(*line) for line in bill(one.pieces, kit.parts).items()],
         "bill": [_counted(one, *line) for line in bill(one.pieces, kit.parts).items()],
         "angles": [f"{b - a:.5g}" for a, b in pairwise([*one.turns, 360.0])],
         "weave": {name: _text(value) for name, value in one.weave.items()},
@@ -131,7 +132,11 @@ def _counted(one: Joint, part: str, count: int) -> str:
             notes.append(half if len(roles) == 1 else f"{half} at {turns}")
     if over := [f"{p.pose.degrees:.4g}°" for p in mine if p.other_way_up]:
         notes.append(f"upside down at {', '.join(over)}")
-    return f"{count} x `{part}`" + (f" ({', '.join(notes)})" if notes else "")
+    return _count(part, count) + (f" ({', '.join(notes)})" if notes else "")
+
+
+def _count(part: str, count: int) -> str:
+    return f"{count} x `{part}`"
 
 
 def _needed(line: Line, what: str) -> dict[str, Any]:
