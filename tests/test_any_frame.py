@@ -437,6 +437,12 @@ def test_a_second_shape_of_a_half_is_not_told_as_one_turned_over():
     )
 
 
+def test_a_readme_of_rows_names_no_parts_of_grids():
+    text = readme(build(request(named("ladder", bays=2), key="fixed")))
+    assert "Push the two rows together" in text
+    assert not re.search(r"one_sided|two_sided|`connector`|with a socket are", text)
+
+
 @pytest.mark.parametrize("narrow", [26, 40])
 def test_a_straight_gap_is_no_more_than_half_a_turn_however_it_is_rounded(narrow):
     turns = np.radians([-narrow, 0, narrow, 90, 270])
