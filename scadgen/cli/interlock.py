@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from scadgen.api.words import meant
 from scadgen.cli.console import force_option, status, table
-from scadgen.cli.words import LENGTH, meant
+from scadgen.cli.length import LENGTH
 from scadgen.errors import InputError, InvariantError
 
 if TYPE_CHECKING:

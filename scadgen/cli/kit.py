@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from scadgen.api.request import kit_request
 from scadgen.cli.console import Bar, counted, force_option, progress
-from scadgen.cli.frame_source import source_options
-from scadgen.cli.kit_request import kit_request
-from scadgen.cli.words import LENGTH
+from scadgen.cli.length import LENGTH
+from scadgen.cli.source_options import source_options
 from scadgen.errors import GeometryError, JointError
 from scadgen.kit.live import LIVE, PARAMETERS
 
