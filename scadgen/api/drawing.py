@@ -15,7 +15,7 @@ from scadgen.frame.graph import Frame
 from scadgen.readers.reading import Read, Reading, from_graph, from_segments
 from scadgen.solid.affine import Floats
 
-__all__ = ["Drawing", "drawing"]
+__all__ = ["Drawing", "drawing", "shown"]
 
 #: Letters of a value that a message shows.
 _SHOWN = 60
@@ -72,7 +72,7 @@ def drawing(given: object, name: str | None = None) -> Drawing:
         vertices, edges = given
         return Drawing(called, GRAPH, lambda how: _of_arrays(called, vertices, edges, how))
     msg = (
-        f"frame {_short(given)}: must be a name or a file; a frame; vertices and edges; a graph of "
+        f"frame {shown(given)}: must be a name or a file; a frame; vertices and edges; a graph of "
         "networkx; lines of shapely"
     )
     raise InputError(msg)
@@ -99,10 +99,13 @@ def _of_frame(frame: Frame, how: Reading) -> Read:
 
 def _of_arrays(name: str, vertices: object, edges: object, how: Reading) -> Read:
     points = _numbers("vertices", vertices) * (how.scale or 1.0)
+    if points.ndim != 2 or points.shape[1] != 2:
+        msg = f"vertices of shape {points.shape}: must be (n, 2), an x and a y each"
+        raise InputError(msg)
     try:
         pairs = np.asarray(edges)
     except ValueError:
-        msg = f"edges {_short(edges)}: must be (m, 2), two vertices each"
+        msg = f"edges {shown(edges)}: must be (m, 2), two vertices each"
         raise InputError(msg) from None
     return from_graph(name, points, pairs, how)
 
@@ -112,9 +115,9 @@ def _of_graph(name: str, graph: Any, how: Reading) -> Read:  # noqa: ANN401  imp
     number = {node: n for n, node in enumerate(graph)}
     points = np.zeros((len(number), 2))
     for node, at in graph.nodes(data="pos"):
-        point = None if at is None else _numbers(f"node {_short(node)}: pos", at)
+        point = None if at is None else _numbers(f"node {shown(node)}: pos", at)
         if point is None or point.shape != (2,):
-            msg = f"node {_short(node)}: pos = {_short(at)}: must be an x and a y, in mm"
+            msg = f"node {shown(node)}: pos = {shown(at)}: must be an x and a y, in mm"
             raise InputError(msg)
         points[number[node]] = point
     pairs = np.array([(number[a], number[b]) for a, b in graph.edges()]).reshape(-1, 2)
@@ -137,7 +140,7 @@ def _polylines(lines: Iterable[Any]) -> Iterator[Floats]:
             msg = f"{part.geom_type}: must be lines; of an area take its boundary"
             raise InputError(msg)
         elif part.has_z and np.ptp(shapely.get_coordinates(part, include_z=True)[:, 2]):
-            msg = f"{_short(part)}: must be plane, at one height"
+            msg = f"{shown(part)}: must be plane, at one height"
             raise InputError(msg)
         else:
             yield np.asarray(shapely.get_coordinates(part))
@@ -147,11 +150,11 @@ def _numbers(what: str, given: object) -> Floats:
     try:
         return np.asarray(given, dtype=float)
     except (TypeError, ValueError):
-        msg = f"{what} = {_short(given)}: must be numbers, an x and a y each, in mm"
+        msg = f"{what} = {shown(given)}: must be numbers, an x and a y each, in mm"
         raise InputError(msg) from None
 
 
-def _short(given: object) -> str:
+def shown(given: object) -> str:
     """A value as a message shows it, on one line."""
     line = " ".join(repr(given).split())
     return line if len(line) <= _SHOWN else f"{line[: _SHOWN - 3]}..."

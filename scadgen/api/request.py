@@ -17,8 +17,9 @@ from scadgen.errors import InputError
 
 if TYPE_CHECKING:
     from scadgen.kit.build import Request
+    from scadgen.kit.model import Kit
 
-__all__ = ["kit_request", "plain_name"]
+__all__ = ["keys_note", "kit_request", "plain_name"]
 
 #: Options of named frames that say how large one is, and how large what it fills is, in mm.
 _SIZES, _AREAS = {"width", "height", "bay_length"}, {"radius", "outline"}
@@ -140,6 +141,15 @@ def _filled(request: Request, frame: Source, options: Mapping[str, Any], length:
         scale = growth(request)
         if scale < 1 + 1e-6:
             return request
+
+
+def keys_note(kit: Kit) -> tuple[str, ...]:
+    """A note that keys are elsewhere than was chosen first, if they are."""
+    count = len(kit.refused)
+    if not count:
+        return ()
+    choices = "1 choice" if count == 1 else f"{count} choices"
+    return (f"{choices} of a key not proved, or the frame loose with it: another is used",)
 
 
 def _weave(name: str) -> Any:  # noqa: ANN401  imported late: the import takes a while

@@ -120,7 +120,7 @@ def _reader(source: Source) -> tuple[str, Callable[[Reading], Read]]:
     from scadgen.readers.read import READERS, read
 
     if isinstance(source, Drawing):
-        return source.kind, source.read
+        return source.kind, lambda how: _told(source, how)
     path = Path(source)
     kind = path.suffix.lower()
     if kind not in READERS:
@@ -130,6 +130,15 @@ def _reader(source: Source) -> tuple[str, Callable[[Reading], Read]]:
         )
         raise InputError(msg)
     return kind, lambda how: read(path, how)
+
+
+def _told(source: Drawing, how: Reading) -> Read:
+    """What a program has as a frame; what is wrong with it is told with its name."""
+    try:
+        return source.read(how)
+    except InputError as error:
+        msg = f"{source.name}: {error}"
+        raise InputError(msg) from None
 
 
 def _reading(name: str, kind: str, given: Mapping[str, Any]) -> Reading:
