@@ -26,7 +26,13 @@ README = (ROOT / "README.md").read_text()
 PYTHON = re.compile(r"```python\n(.*?)```", re.DOTALL)
 PAGES = [
     ROOT / page
-    for page in ("README.md", "docs/geometry.md", "docs/architecture.md", "examples/README.md")
+    for page in (
+        "README.md",
+        "docs/geometry.md",
+        "docs/architecture.md",
+        "docs/python.md",
+        "examples/README.md",
+    )
 ]
 
 

@@ -134,7 +134,7 @@ def _polylines(lines: Iterable[Any]) -> Iterator[Floats]:
     import shapely
 
     for part in shapely.get_parts([*lines]):
-        if isinstance(part, shapely.GeometryCollection):
+        if isinstance(part, shapely.GeometryCollection | shapely.MultiLineString):
             yield from _polylines(part.geoms)
         elif not isinstance(part, shapely.LineString):
             msg = f"{part.geom_type}: must be lines; of an area take its boundary"

@@ -54,9 +54,9 @@ class Kit:
     >>> kit
     <kit square: 1 x 2 cells, 6 joints, 7 edges, not proved>
     >>> list(kit.parts)[-3:]
-    ['connector', 'half', 'peg']
-    >>> kit.values["side"], kit.ranges["side"]
-    (10.0, (10.0, 10.0))
+    ['half', 'peg', 'tube']
+    >>> kit.values["clearance"], kit.ranges["clearance"][0]
+    (0.2, 0.0)
     """
 
     value: model.Kit
