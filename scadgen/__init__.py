@@ -66,14 +66,16 @@ _HOMES = {
 }
 
 
-def __getattr__(name: str) -> object:
-    """A public name, when it is first asked for."""
-    if name not in __all__:
-        msg = f"module {__name__!r} has no attribute {name!r}"
-        raise AttributeError(msg)
-    found: object = getattr(import_module(f"scadgen.{_HOMES.get(name, 'errors')}"), name)
-    globals()[name] = found
-    return found
+if not TYPE_CHECKING:  # who checks types is to know which names there are
+
+    def __getattr__(name: str) -> object:
+        """A public name, when it is first asked for."""
+        if name not in __all__:
+            msg = f"module {__name__!r} has no attribute {name!r}"
+            raise AttributeError(msg)
+        found = getattr(import_module(f"scadgen.{_HOMES.get(name, 'errors')}"), name)
+        globals()[name] = found
+        return found
 
 
 def __dir__() -> list[str]:

@@ -277,6 +277,16 @@ def test_lines_are_joined_and_split_as_drawings_are():
         scadgen.make_frame(shapely.MultiLineString(lines), no_split=True)
 
 
+def test_names_are_those_of_files(tmp_path):
+    frame = scadgen.make_frame((POINTS, EDGES), name="a/b: c")
+    assert frame.name == scadgen.make_frame("ladder", name="a/b: c").name == "a_b_ c"
+    kit = made("hexagonal", name="My shelf")
+    # No command gives a kit another name than its frame's.
+    assert (kit.name, kit.value.command) == ("My_shelf", "")
+    assert (kit.write(tmp_path / "kit") / "My_shelf.scad").is_file()
+    assert scadgen.load_kit(tmp_path / "kit" / "kit.json").name == "My_shelf"
+
+
 def test_units_go_for_what_a_program_has():
     inches = ([(0, 0), (4, 0)], [(0, 1)])
     for given in (inches, shapely.LineString(inches[0])):
@@ -308,6 +318,11 @@ def test_a_kit_of_what_a_program_has_is_that_of_its_file(tmp_path):
     of_file, of_graph = made(file), made(graph(), name="Shelf 1")
     assert of_graph.name == of_file.name == "Shelf_1"
     assert of_graph.value.command == ""
+    folder = of_graph.write(tmp_path / "graph")
+    for text in ("Makefile", "Shelf_1.scad", "README.md"):
+        said = (folder / text).read_text()
+        assert "by a Python program with scadgen" in " ".join(said.split())
+        assert not re.search(r"^(//|#) +$", said, re.MULTILINE)
     assert [*of_graph.parts] == [*of_file.parts]
     for name, part in of_file.parts.items():
         points, triangles = of_graph.parts[name].mesh()
@@ -394,16 +409,15 @@ def test_a_part_is_written_as_the_command_exports_it(tmp_path):
 
 def test_checks_find_what_is_wrong(tmp_path):
     kit = scadgen.Kit(kits.proved_kit("hexagonal"))
-    said = []
-    results = kit.check(progress=said.append)
-    assert all(result.good for result in results)
-    assert "solids" in said
-    # A kit in a folder has files besides, of which one is spoiled.
+    # A kit in a folder has files besides; one of these is spoiled, and nothing else.
     folder = kit.write(tmp_path / "kit")
     (folder / "README.md").write_text("spoiled")
-    bad = [one.check for one in scadgen.load_kit(folder).check() if not one.good]
-    assert bad == ["README.md"] or (len(bad) == 1 and "README.md" in bad[0])
-    # Parts that are not what they say is found without any file.
+    said = []
+    results = scadgen.load_kit(folder).check(progress=said.append)
+    (bad,) = [one for one in results if not one.good]
+    assert "README.md" in bad.check + bad.figure
+    assert said.index("files") < said.index("solids")
+    # A kit that is not what its own parameters make is found without any file.
     other = scadgen.Kit(replace(kit.value, detail="standard"))
     assert not all(one.good for one in other.check())
 

@@ -13,7 +13,7 @@ from scadgen.api.curves import told_of_curves
 from scadgen.api.drawing import drawing
 from scadgen.api.kit import Kit
 from scadgen.api.request import keys_note, kit_request, plain_name
-from scadgen.api.source import Source, is_file, load_frame
+from scadgen.api.source import Source, is_file, load_frame, renamed
 from scadgen.api.values import as_given
 from scadgen.frame.graph import Frame
 from scadgen.kit.bill import check_material
@@ -82,12 +82,13 @@ def make_frame(
     >>> tee.lengths.tolist()
     [90.0, 90.0]
     """
-    given = as_given(options)
+    given = as_given({"name": name, **options})
+    given.pop("name", None)
     read = load_frame(_source(source, name), given)
     for line in read.notes:
         if note is not None:
             note(line)
-    return read.frame if name is None else replace(read.frame, name=name)
+    return read.frame if name is None else renamed(read.frame, name)
 
 
 def make_kit(  # noqa: PLR0913  one argument an option
@@ -177,7 +178,7 @@ def make_kit(  # noqa: PLR0913  one argument an option
         source,
         dict.fromkeys(("rows", "columns", "key", "weave")) | given,
         PARAMETERS,
-        _command(source, given, material, prove=prove),
+        "" if called else _command(source, given, material, prove=prove),
     )
     if called is not None:
         request = replace(request, name=plain_name(called))
@@ -199,7 +200,7 @@ def _source(given: object, name: str | None) -> Source:
 
 
 def _command(source: Source, given: Mapping[str, Any], material: str, *, prove: bool) -> str:
-    """The command that makes the same kit, if there is one."""
+    """The command that makes the same kit; empty if what a program has is its frame."""
     if not isinstance(source, str):
         return ""
     usual = {"rim": "caps", "detail": "standard"}

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from scadgen.frame.graph import Frame
     from scadgen.readers.reading import Read, Reading
 
-__all__ = ["Source", "called", "family_of", "has_cells", "is_file", "load_frame"]
+__all__ = ["Source", "called", "family_of", "has_cells", "is_file", "load_frame", "renamed"]
 
 #: The name of a frame, or of a file; or what a program has.
 Source: TypeAlias = str | Drawing
@@ -108,10 +108,13 @@ def _load(source: Source, given: dict[str, Any], room: Callable[[Frame], float] 
         found = roomiest(
             found, how.flatten, lambda within: read(replace(how, flatten=within)), room
         )
-    # What a file is called may not do as a frame's name in JSON.
-    name = found.frame.name.encode(errors="surrogateescape").decode(errors="replace")
-    plain = re.sub(r"[^\w. -]", "_", name)[:100]
-    return replace(found, frame=replace(found.frame, name=plain))
+    return replace(found, frame=renamed(found.frame, found.frame.name))
+
+
+def renamed(frame: Frame, name: str) -> Frame:
+    """The same frame by another name, or by what of it does as a frame's name in JSON."""
+    known = name.encode(errors="surrogateescape").decode(errors="replace")
+    return replace(frame, name=re.sub(r"[^\w. -]", "_", known)[:100])
 
 
 def _reader(source: Source) -> tuple[str, Callable[[Reading], Read]]:
