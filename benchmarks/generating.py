@@ -62,8 +62,8 @@ def _generate(frame: str) -> dict[str, float | str]:
 
     from scadgen.emit.folder import write_kit
     from scadgen.errors import ScadgenError
-    from scadgen.frame.catalogue import NamedTiling
     from scadgen.kit.build import Request, build
+    from scadgen.plane.catalogue import NamedTiling
 
     load = time.process_time()
     try:

@@ -12,8 +12,8 @@ from pathlib import Path
 from report import heading, line, progress
 
 from scadgen.emit.macro import macro
-from scadgen.frame.catalogue import NamedTiling
 from scadgen.kit.build import Request, build
+from scadgen.plane.catalogue import NamedTiling
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 

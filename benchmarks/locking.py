@@ -77,11 +77,11 @@ def run() -> None:
 
 def _joint(frame: str) -> None:
     from scadgen.check.geometry import placed
-    from scadgen.frame.catalogue import NamedTiling
     from scadgen.interlock.assembly import make_assembly
     from scadgen.interlock.contacts import find_contacts
     from scadgen.interlock.verdict import Certificate, verdict
     from scadgen.kit.build import Request, build
+    from scadgen.plane.catalogue import NamedTiling
 
     kit = build(Request.tiled(NamedTiling(frame)))
     values = {**kit.values, "clearance": 0.0, "peg_clearance": 0.0}

@@ -13,7 +13,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from scadgen.frame.catalogue import NAMES
+from scadgen.plane.catalogue import NAMES
 
 SCADGEN = [str(Path(sys.executable).with_name("scadgen"))]
 

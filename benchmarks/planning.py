@@ -11,11 +11,11 @@ import time
 from report import heading, line, progress
 
 from scadgen.check.proof import proved
-from scadgen.frame.catalogue import NamedTiling
 from scadgen.kit.build import Request, build, laid_out
 from scadgen.plan.order import make_plan
 from scadgen.plan.standing import stand
 from scadgen.plan.whole import whole_frame
+from scadgen.plane.catalogue import NamedTiling
 
 __all__ = ["run"]
 

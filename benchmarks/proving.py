@@ -15,9 +15,9 @@ from report import heading, line, progress
 from scadgen.check.proof import proofs, proved
 from scadgen.check.run import checks
 from scadgen.emit.folder import write_kit
-from scadgen.frame.catalogue import NamedTiling
 from scadgen.kit.build import Request, build
 from scadgen.kit.model import Kit
+from scadgen.plane.catalogue import NamedTiling
 
 __all__ = ["run"]
 

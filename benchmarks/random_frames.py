@@ -20,11 +20,12 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import Delaunay
 
 from scadgen.errors import InvariantError, ScadgenError
-from scadgen.frame.graph import Frame, make_frame
+from scadgen.frame.graph import Frame
 from scadgen.kit.build import Request
 from scadgen.plan.keyed import proved_kit
 from scadgen.plan.order import make_plan
 from scadgen.plan.whole import whole_frame
+from scadgen.plane.drawn import make_frame
 
 #: Least angle between two edges, in degrees, and the vertices of a frame.
 LEAST, FEWEST, MOST = 25.5, 3, 60

@@ -129,10 +129,10 @@ def _child(*words: str, cache: Path | None = None) -> dict[str, float]:
 def _measure(what: str, how: str) -> dict[str, float]:
     """Make joints; what that takes."""
     from scadgen.joint.weave import any_joint
-    from scadgen.kit.wanted import Wanted, wanted_pieces
+    from scadgen.kit.compute import JointSpec, compute_joints
     from scadgen.work.cache import Cache
-    from scadgen.work.crew import hired
-    from scadgen.work.each import Means
+    from scadgen.work.executor import open_executor
+    from scadgen.work.mapping import Execution
 
     count = int(how) if what == "count" else _SHARED
     rng, wanted = np.random.default_rng(7), []
@@ -141,17 +141,17 @@ def _measure(what: str, how: str) -> dict[str, float]:
         gaps = np.diff(np.append(turns, 2 * np.pi))
         weave = any_joint(float(gaps.min()))
         wanted.append(
-            Wanted(tuple(turns.tolist()), weave, "loose", "draft", wider=(0.0, 0.1, 0.2, 0.3))
+            JointSpec(tuple(turns.tolist()), weave, "loose", "draft", wider=(0.0, 0.1, 0.2, 0.3))
         )
-    wanted_pieces(wanted[:1], Means())  # what is imported late is not counted
+    compute_joints(wanted[:1], Execution())  # what is imported late is not counted
     jobs = 1 if what == "count" else int(how) if how.isdigit() else None
     address = None if how.isdigit() else how
     cache = Cache(Path(os.environ["BENCH_CACHE"])) if os.environ["BENCH_CACHE"] else None
-    with hired(jobs, address, progress) as crew:
+    with open_executor(jobs, address, progress) as crew:
         cpu, start = time.process_time(), time.monotonic()
         # A hundred at a time, as whoever has no use for all of them at once does.
         for first in range(0, count, 100):
-            wanted_pieces(wanted[first : first + 100], Means(crew, cache))
+            compute_joints(wanted[first : first + 100], Execution(crew, cache))
         cpu, wall = time.process_time() - cpu, time.monotonic() - start
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     return {"cpu": cpu, "wall": wall, "peak": peak}

@@ -14,9 +14,11 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from scadgen.api.kit import Kit, load_kit
+    from scadgen.api.kit import KitHandle as Kit
+    from scadgen.api.kit import load_kit
     from scadgen.api.make import make_frame, make_kit
-    from scadgen.api.part import Mesh, Part
+    from scadgen.api.part import Mesh
+    from scadgen.api.part import PartHandle as Part
     from scadgen.api.planned import KitPlan
     from scadgen.check.result import Result
     from scadgen.errors import (
@@ -52,17 +54,17 @@ __all__ = [
 
 __version__ = "0.1.0"
 
-#: Where each name is at home, if that is not ``scadgen.errors``.
+#: The module of each name, if that is not ``scadgen.errors``, and what it is called there.
 _HOMES = {
-    "Frame": "frame.graph",
-    "Kit": "api.kit",
-    "KitPlan": "api.planned",
-    "Mesh": "api.part",
-    "Part": "api.part",
-    "Result": "check.result",
-    "load_kit": "api.kit",
-    "make_frame": "api.make",
-    "make_kit": "api.make",
+    "Frame": ("frame.graph", "Frame"),
+    "Kit": ("api.kit", "KitHandle"),
+    "KitPlan": ("api.planned", "KitPlan"),
+    "Mesh": ("api.part", "Mesh"),
+    "Part": ("api.part", "PartHandle"),
+    "Result": ("check.result", "Result"),
+    "load_kit": ("api.kit", "load_kit"),
+    "make_frame": ("api.make", "make_frame"),
+    "make_kit": ("api.make", "make_kit"),
 }
 
 
@@ -73,7 +75,8 @@ if not TYPE_CHECKING:  # who checks types is to know which names there are
         if name not in __all__:
             msg = f"module {__name__!r} has no attribute {name!r}"
             raise AttributeError(msg)
-        found = getattr(import_module(f"scadgen.{_HOMES.get(name, 'errors')}"), name)
+        module, called = _HOMES.get(name, ("errors", name))
+        found = getattr(import_module(f"scadgen.{module}"), called)
         globals()[name] = found
         return found
 

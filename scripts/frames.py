@@ -15,8 +15,9 @@ import numpy as np
 import shapely
 from scipy.spatial import Delaunay, Voronoi
 
-from scadgen.frame.catalogue import named
-from scadgen.frame.graph import Frame, make_frame
+from scadgen.frame.graph import Frame
+from scadgen.plane.catalogue import named
+from scadgen.plane.drawn import make_frame
 from scadgen.readers.json_frame import dumps
 
 #: Length of the shortest edge of the star pattern, in mm.
@@ -81,7 +82,7 @@ def rough(seed: int = 7, most: float = 1.5) -> str:
     rng = np.random.default_rng(seed)
     by = most * np.sqrt(rng.random(len(frame.vertices)))
     turn = 2 * np.pi * rng.random(len(frame.vertices))
-    points = frame.vertices @ (1, 1j) + by * np.exp(1j * turn)
+    points = frame.plan @ (1, 1j) + by * np.exp(1j * turn)
     return svg([list(points[edge]) for edge in frame.edges], "Hexagons drawn by hand")
 
 
@@ -169,12 +170,12 @@ def main(folder: Path) -> None:
     tiling = named("3.4.6.4", edge_length=60.0)
     files = {
         "star.svg": star_pattern(),
-        "trellis.json": dumps(Frame("trellis", trellis.vertices, trellis.edges)),
+        "trellis.json": dumps(Frame.planar("trellis", trellis.plan, trellis.edges)),
         "net.json": dumps(net()),
         "cells.json": dumps(cells()),
         "crosses.svg": crosses(),
         "rough.svg": rough(),
-        "tiling.json": dumps(Frame("tiling", tiling.vertices, tiling.edges)),
+        "tiling.json": dumps(Frame.planar("tiling", tiling.plan, tiling.edges)),
     }
     for name, text in files.items():
         (folder / name).write_text(text, encoding="ascii")

@@ -15,12 +15,12 @@ from scadgen.emit.frame_picture import frame_svg
 from scadgen.emit.mesh import write_atomic
 from scadgen.emit.picture import assembly_picture, frame_picture, joint_picture, parts_picture
 from scadgen.errors import ScadgenError
-from scadgen.frame.catalogue import NamedTiling
-from scadgen.frame.sameness import sameness
-from scadgen.frame.snapping import move_vertices
+from scadgen.frame.classes import classify
 from scadgen.kit.build import Request, build
 from scadgen.plan.order import make_plan
 from scadgen.plan.picture import step_pictures
+from scadgen.plane.catalogue import NamedTiling
+from scadgen.plane.snapping import move_vertices
 from scadgen.readers.read import read
 
 __all__ = ["frames", "main", "pictures"]
@@ -56,7 +56,7 @@ def frames() -> Iterator[tuple[str, bytes]]:
     shown = {path.stem: read(path).frame for path in sorted(_EXAMPLES.iterdir())}
     shown["rough_snapped"] = move_vertices(shown["rough"], _SNAP).frame
     for name, frame in shown.items():
-        yield f"frame_{name}.svg", frame_svg(frame, sameness(frame)).encode()
+        yield f"frame_{name}.svg", frame_svg(frame, classify(frame)).encode()
 
 
 def main(folder: Path) -> int:

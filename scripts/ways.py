@@ -14,8 +14,8 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from scadgen.check.known import key_of, known_ways
-from scadgen.check.ways import come_apart
+from scadgen.check.disassembly import come_apart
+from scadgen.check.stored_paths import key_of, known_ways
 from scadgen.frame.placement import KEYS
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.weave import BUILT_IN

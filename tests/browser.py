@@ -67,7 +67,7 @@ def edges(picture):
 def lines(frame, page):
     """Points along the edges of a frame in a picture of a page, ``(k, 2) float``, in pixels."""
     width, height = page
-    start, end = frame.vertices[frame.edges].transpose(1, 0, 2) * [1, -1] + [0, height]
+    start, end = frame.plan[frame.edges].transpose(1, 0, 2) * [1, -1] + [0, height]
     start, end = (points * SIDE / width for points in (start, end))
     counts = np.ceil(np.linalg.norm(end - start, axis=1)).astype(int) + 1
     return np.concatenate(

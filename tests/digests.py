@@ -21,8 +21,8 @@ from scadgen.cli.kit import kit as command
 from scadgen.frame.placement import bill
 from scadgen.kit.build import build
 from scadgen.kit.live import PARAMETERS
-from scadgen.work.crew import hired
-from scadgen.work.each import Means
+from scadgen.work.executor import open_executor
+from scadgen.work.mapping import Execution
 
 __all__ = ["DRAWN", "FILE", "GRIDS", "SUMS", "digest", "made"]
 
@@ -90,9 +90,9 @@ def _sums(table):
 def _write():
     """Write the digests of this tree."""
     told = []
-    with hired(None, None, told.append) as crew:
+    with open_executor(None, None, told.append) as crew:
         found = {
-            f"{name} {detail}": digest(made([*arguments, "--detail", detail], Means(crew)))
+            f"{name} {detail}": digest(made([*arguments, "--detail", detail], Execution(crew)))
             for name, arguments in (GRIDS | DRAWN).items()
             for detail in ("draft", "standard")
         }

@@ -8,14 +8,14 @@ from shared import once
 from scadgen.check.proof import proved
 from scadgen.element.pieces import Piece, add_surface
 from scadgen.emit.scad import scad
-from scadgen.frame.catalogue import NAMES, NamedTiling
-from scadgen.frame.graph import make_frame
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.spokes import Spokes
 from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import Request, build
 from scadgen.kit.live import PARAMETERS
 from scadgen.kit.store import dumps
+from scadgen.plane.catalogue import NAMES, NamedTiling
+from scadgen.plane.drawn import make_frame
 from scadgen.solid.shell import Shell
 
 #: Every kind of kit: frame, key, bore in mm.

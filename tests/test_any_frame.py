@@ -20,9 +20,7 @@ from scadgen.emit.readme import readme
 from scadgen.emit.scad import scad
 from scadgen.emit.scad_parameters import views
 from scadgen.errors import GeometryError, InputError, KitError
-from scadgen.frame.alike import Ends
-from scadgen.frame.catalogue import named
-from scadgen.frame.graph import make_frame
+from scadgen.frame.element_classes import ElementEnds
 from scadgen.frame.placement import Place, Placement
 from scadgen.joint.symmetry import Symmetry
 from scadgen.joint.weave import any_joint
@@ -34,8 +32,10 @@ from scadgen.kit.store import dumps, loads, summary
 from scadgen.plan.motion import motion_of
 from scadgen.plan.order import make_plan
 from scadgen.plan.standing import stand
+from scadgen.plan.text import plan_text
 from scadgen.plan.whole import whole_frame
-from scadgen.plan.words import plan_text
+from scadgen.plane.catalogue import named
+from scadgen.plane.drawn import make_frame
 from scadgen.solid.gap import smallest_gap
 from scadgen.solid.mesh import volume
 from scadgen.solid.pose import Pose
@@ -222,7 +222,7 @@ def test_connectors_between_the_same_walls_are_one_part_in_joints_of_any_kind():
     # An edge that ends in them is one element too, whichever kind of joint it is at.
     same = found.slots.what[[0, 1, 2, 3], 2]
     over = found.slots.over[[0, 1, 2, 3], 2]
-    ends = Ends(
+    ends = ElementEnds(
         np.column_stack([same, np.full(4, 99)]),
         np.column_stack([over, np.zeros(4, dtype=bool)]),
         np.tile([False, True], (4, 1)),
@@ -476,7 +476,7 @@ def test_an_edge_that_is_too_short_is_named_with_the_side_that_would_do(values):
     missing, side, scale = map(float, said.groups())
     assert scale == pytest.approx((70 + missing) / 70, abs=1e-3)
     for own, times in ((side, 1.0), (12.0, scale)):
-        frame = make_frame("bent", bent.vertices * times, bent.edges)
+        frame = make_frame("bent", bent.plan * times, bent.edges)
         made = build(request(frame, resizable=False, values={**values, "side": own}))
         low, _ = bounds(made, "edge_length", made.values)
         assert low <= made.values["edge_length"] < low + 0.3

@@ -99,8 +99,7 @@ def test_the_public_names_are_these():
     assert scadgen.__all__ == NAMES
     assert {*NAMES} <= {*dir(scadgen)}
     for name in NAMES:
-        thing = getattr(scadgen, name)
-        assert name in ("__version__", getattr(thing, "__name__", ""))
+        assert getattr(getattr(scadgen, name), "__name__", "__version__").startswith(name)
     with pytest.raises(AttributeError, match="no attribute 'made'"):
         _ = scadgen.made
     # A package of the same name would take the place of what is public once it is imported.
@@ -261,7 +260,7 @@ def test_all_ways_to_say_a_frame_make_the_same(tmp_path):
         )
     ]
     for frame in (*frames, scadgen.make_frame(frames[0])):
-        assert frame.vertices.tolist() == [list(map(float, point)) for point in POINTS]
+        assert frame.plan.tolist() == [list(map(float, point)) for point in POINTS]
         assert sorted(frame.edges.tolist()) == sorted(map(list, EDGES))
 
 
@@ -291,7 +290,7 @@ def test_units_go_for_what_a_program_has():
     inches = ([(0, 0), (4, 0)], [(0, 1)])
     for given in (inches, shapely.LineString(inches[0])):
         frame = scadgen.make_frame(given, unit="inch", centre=True)
-        assert frame.vertices.tolist() == [[-50.8, 0], [50.8, 0]]
+        assert frame.plan.tolist() == [[-50.8, 0], [50.8, 0]]
 
 
 def test_a_kit_is_that_of_the_command_byte_for_byte(tmp_path):

@@ -14,10 +14,10 @@ from shared import once
 
 from scadgen.emit.scad import scad
 from scadgen.errors import InputError
-from scadgen.frame.catalogue import NAMES, NamedTiling, named
 from scadgen.frame.placement import bill
 from scadgen.kit.build import Request, build, laid_out
 from scadgen.kit.cells import MOST_CELLS
+from scadgen.plane.catalogue import NAMES, NamedTiling, named
 from scadgen.tools.openscad import render
 
 TILINGS = [name for name, family in NAMES.items() if "rows" in family.options]
@@ -87,8 +87,8 @@ def test_cells_make_the_frame_of_the_tiling(name, rows, columns):
     drawn = named(name, rows=rows, columns=columns)
     lengths = [frame.lengths.min() for frame in (made.frame, drawn)]
     assert np.array_equal(made.frame.edges, drawn.edges)
-    scaled = drawn.vertices * (lengths[0] / lengths[1])
-    assert np.allclose(made.frame.vertices, scaled, rtol=0, atol=1e-5)
+    scaled = drawn.plan * (lengths[0] / lengths[1])
+    assert np.allclose(made.frame.plan, scaled, rtol=0, atol=1e-5)
 
 
 @pytest.mark.parametrize("name", TILINGS)

@@ -13,7 +13,7 @@ from clusters import cluster
 
 from scadgen.errors import InputError
 from scadgen.work import cluster as module
-from scadgen.work.crew import hired
+from scadgen.work.executor import open_executor
 
 #: Three edges at unequal angles, and a fourth that hangs on one of them: several kinds of joints.
 FORK = {
@@ -64,7 +64,7 @@ def test_what_a_cluster_leaves_undone_is_done_here(tmp_path, monkeypatch, lost):
     notes, seen = [], []
     with (
         cluster(tmp_path, 2) as started,
-        hired(2, started.address, notes.append) as crew,
+        open_executor(2, started.address, notes.append) as crew,
     ):
         start = time.monotonic()
         for number, outcome in crew.outcomes(time.sleep, [0.2] * 30):
@@ -83,14 +83,14 @@ def test_what_a_cluster_leaves_undone_is_done_here(tmp_path, monkeypatch, lost):
 
 def test_a_scheduler_without_workers_is_refused(tmp_path):
     refused = pytest.raises(InputError, match="has no workers; dask")
-    with cluster(tmp_path, 0) as started, refused, hired(None, started.address, print):
+    with cluster(tmp_path, 0) as started, refused, open_executor(None, started.address, print):
         pass
 
 
 def test_workers_of_another_scadgen_are_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "_mark", lambda: "another")
     refused = pytest.raises(InputError, match="has another scadgen")
-    with cluster(tmp_path, 1) as started, refused, hired(None, started.address, print):
+    with cluster(tmp_path, 1) as started, refused, open_executor(None, started.address, print):
         pass
 
 

@@ -122,6 +122,7 @@ def test_open_edges_are_found():
 
 def test_overlaps_give_the_volume_and_leave_touching_parts_alone():
     parts = [LOWER, box((3, 3, 1), (5, 5, 5)), box((0, 0, 2), (2, 2, 3))]
-    ((a, b, shared),) = overlaps(parts)
+    ((a, b, shared, depth),) = overlaps(parts)
     assert (a, b) == (0, 1)
     assert shared == pytest.approx(1)
+    assert depth == pytest.approx(1 / 3)  # a cube of side 1: 2 of volume over 6 of surface

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from scadgen.errors import InputError
-from scadgen.frame.catalogue import NAMES, named
+from scadgen.plane.catalogue import NAMES, named
 from scadgen.readers.read import read
 from scadgen.readers.reading import Reading
 
@@ -34,13 +34,13 @@ def test_a_frame_drawn_as_dxf_lines_and_read_back_is_the_same(dxf, name):
     frame = named(name)
 
     def draw(space):
-        for start, end in frame.vertices[frame.edges].tolist():
+        for start, end in frame.plan[frame.edges].tolist():
             space.add_line(start, end)
 
     result = dxf(draw)
     assert result.notes == ()
     assert np.array_equal(result.frame.edges, frame.edges)
-    assert result.frame.vertices == pytest.approx(frame.vertices, abs=1e-6)
+    assert result.frame.plan == pytest.approx(frame.plan, abs=1e-6)
 
 
 @settings(
@@ -120,8 +120,8 @@ def test_dxf_bulges_and_arcs_are_within_the_tolerance(dxf, flatten):
     found = dxf(draw, Reading(flatten=flatten))
     frame = found.frame
     assert found.notes[0].startswith(f"shapes with curves: 2, now {len(frame.edges)} segments")
-    assert np.linalg.norm(frame.vertices, axis=1) == pytest.approx(40, abs=0.01)
-    middles = frame.vertices[frame.edges].mean(axis=1)
+    assert np.linalg.norm(frame.plan, axis=1) == pytest.approx(40, abs=0.01)
+    middles = frame.plan[frame.edges].mean(axis=1)
     assert np.linalg.norm(middles, axis=1).min() >= 40 - flatten - 1e-9
     assert (frame.degree == 2).all()
     assert frame.bounds == pytest.approx(np.array([[-40, -40], [40, 40]]), abs=flatten)
@@ -165,7 +165,7 @@ def test_dxf_entities_that_are_not_shown_are_left_out_and_told(dxf):
         space.add_circle((0, 0), 3, {"invisible": 1})
 
     result = dxf(draw)
-    assert result.frame.vertices.tolist() == [[0, 0], [9, 0], [0, 9]]
+    assert result.frame.plan.tolist() == [[0, 0], [9, 0], [0, 9]]
     what = "entities that are invisible, or on layers that are off, frozen or not plotted, left out"
     assert result.notes == (f"{what}: 5",)
     with pytest.raises(InputError, match=f"nothing in it that could be an edge; {what}: 1$"):
@@ -182,7 +182,7 @@ def test_dxf_splines_are_the_points_on_them(dxf, kind):
         for vertex, flags in zip(spline.vertices, (16, 8, 8, 16, 8, 8), strict=True):
             vertex.dxf.flags |= flags
 
-    assert dxf(draw).frame.vertices.tolist() == [[0, 0], [10, 0], [2, 1.6], [8, 1.6]]
+    assert dxf(draw).frame.plan.tolist() == [[0, 0], [10, 0], [2, 1.6], [8, 1.6]]
 
 
 def test_dxf_polylines_without_points_are_nothing(dxf):
@@ -263,7 +263,7 @@ def test_dxf_blocks_stand_where_they_are_inserted(dxf):
     first, second = [(0, 0), (10, 0), (0, 10)], [(10, 0), (0, 0), (10, -10)]
     expected = sorted({(50 + 3 * y, 100 + 2 * x) for x, y in first + second})
     frame = dxf(draw).frame
-    assert sorted((y, x) for x, y in frame.vertices.round(6).tolist()) == expected
+    assert sorted((y, x) for x, y in frame.plan.round(6).tolist()) == expected
     assert len(frame.edges) == 5
 
 
@@ -284,7 +284,7 @@ def test_dxf_circles_in_stretched_blocks_are_ellipses(dxf):
         space.doc.blocks.new("disc").add_circle((0, 0), 10)
         space.add_blockref("disc", (0, 0), {"xscale": 3, "yscale": 1})
 
-    vertices = dxf(draw).frame.vertices
+    vertices = dxf(draw).frame.plan
     assert np.hypot(vertices[:, 0] / 30, vertices[:, 1] / 10) == pytest.approx(1, abs=1e-9)
 
 
@@ -300,7 +300,7 @@ def test_dxf_layers_of_blocks_hide_what_is_in_them(dxf):
 
     found = dxf(draw)
     # Of a block that is off only what has a layer of its own is seen; of a frozen one nothing.
-    assert found.frame.vertices.tolist() == [[0, 0], [0, 10]]
+    assert found.frame.plan.tolist() == [[0, 0], [0, 10]]
     assert found.notes[0].endswith("left out: 2")
 
 
@@ -361,8 +361,8 @@ def test_dxf_splines_and_ellipses_are_within_the_tolerance(dxf, flatten):
     for draw, axes in ((circle, (40, 40)), (ellipse, (60, 30))):
         frame = dxf(draw, Reading(flatten=flatten)).frame
         assert (frame.degree == 2).all()
-        assert np.linalg.norm(frame.vertices / axes, axis=1) == pytest.approx(1, abs=1e-6)
-        middles = frame.vertices[frame.edges].mean(axis=1) / axes
+        assert np.linalg.norm(frame.plan / axes, axis=1) == pytest.approx(1, abs=1e-6)
+        middles = frame.plan[frame.edges].mean(axis=1) / axes
         # How far a chord is off is less than what its middle falls short along a radius.
         assert ((1 - np.linalg.norm(middles, axis=1)) * min(axes)).max() <= flatten + 1e-9
         needed = math.pi / math.acos(1 - flatten / max(axes))
@@ -379,7 +379,7 @@ def test_dxf_hatches_are_their_outlines_as_drawn(dxf):
 
     found, bare = dxf(draw, ALL), dxf(lambda s: (draw(s), s.query("HATCH")[0].destroy()), ALL)
     # What is drawn with its hatch is drawn twice, point by point.
-    assert np.array_equal(found.frame.vertices, bare.frame.vertices)
+    assert np.array_equal(found.frame.plan, bare.frame.plan)
     assert np.array_equal(found.frame.edges, bare.frame.edges)
     alone = dxf(lambda s: s.add_hatch().paths.add_polyline_path([(0, 0), (9, 0), (0, 9)]))
     assert len(alone.frame.edges) == 3
@@ -415,7 +415,7 @@ def test_files_that_are_not_quite_dxf_are_read_whole_and_told(tmp_path, line, be
     text = LINES.format("".join(line.format(*ends) for ends in SIDES))
     path.write_bytes(before + text.encode())
     found = read(path)
-    assert found.frame.vertices.tolist() == [[0, 0], [80, 0], [80, 80]]
+    assert found.frame.plan.tolist() == [[0, 0], [80, 0], [80, 80]]
     assert len(found.frame.edges) == 3
     assert bool(found.notes) == (said is not None)
     assert any((said or "") in note for note in found.notes) or not said

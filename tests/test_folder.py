@@ -10,9 +10,9 @@ from kits import KINDS, drawn, grid, kit, named, proved_kit, tee
 
 from scadgen.emit.folder import files_of, write_kit
 from scadgen.errors import InputError
-from scadgen.frame.graph import make_frame
 from scadgen.kit.build import build
 from scadgen.kit.store import dumps, load
+from scadgen.plane.drawn import make_frame
 
 FILES = {
     "kit.json",

@@ -14,13 +14,13 @@ from kits import drawn
 from scadgen.cli.frame_report import SIDES
 from scadgen.cli.main import cli, main
 from scadgen.emit.frame_picture import frame_svg, joint_name
-from scadgen.frame.catalogue import ALIASES, NAMES, OPTIONS, named
-from scadgen.frame.graph import make_frame
-from scadgen.frame.sameness import sameness
+from scadgen.frame.classes import classify
 from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import build
 from scadgen.kit.store import load
-from scadgen.readers.read import read
+from scadgen.plane.catalogue import ALIASES, NAMES, OPTIONS, named
+from scadgen.plane.drawn import make_frame
+from scadgen.readers.read import READERS, read
 
 ROOT = Path(__file__).parent.parent
 NET = ROOT / "examples" / "frames" / "net.json"
@@ -154,7 +154,7 @@ def test_a_kit_stays_in_its_circle_whatever_the_length_of_its_edges(name, side, 
     assert ended.value.code == 0
     made = load(tmp_path / "kit")
     # The circle's centre is in the middle of a tile; somewhere the next one would stick out.
-    far, shortest = np.linalg.norm(made.frame.vertices, axis=1).max(), made.frame.lengths.min()
+    far, shortest = np.linalg.norm(made.frame.plan, axis=1).max(), made.frame.lengths.min()
     assert 250 / 3 < far <= 250 + 1e-6
     assert shortest == pytest.approx(given or side * round(shortest / side))
     assert shortest >= 6 * side - 1e-6
@@ -167,7 +167,7 @@ def test_rectangles_in_a_circle_are_as_large_as_is_said(tmp_path):
         main(["kit", *words, "-o", str(tmp_path / "kit")])
     assert ended.value.code == 0
     graph = load(tmp_path / "kit").frame
-    assert np.linalg.norm(graph.vertices, axis=1).max() <= 300 + 1e-6
+    assert np.linalg.norm(graph.plan, axis=1).max() <= 300 + 1e-6
     assert set(graph.lengths.round(6)) == {90, 120}
 
 
@@ -281,13 +281,29 @@ def test_outlines_are_typed_as_corners(run, said):
 
 
 def test_the_list_names_all(run, said):
-    listed = said("--list")
+    listed = said("--list")["named"]
     assert [(f["name"], f["text"]) for f in listed] == [(n, f.text) for n, f in NAMES.items()]
     assert {a: f["name"] for f in listed for a in f["other_names"]} == ALIASES
     code, out, _ = run("--list")
     assert code == 0
     for name in (*NAMES, *ALIASES):
         assert re.search(rf"(?<![\w.]){re.escape(name)}(?![\w.])", out), name
+
+
+def test_the_list_tells_what_options_take(said):
+    listed = said("--list")
+    for family in listed["named"]:
+        assert [*family["about"]] == [*family["options"]] == [*NAMES[family["name"]].options]
+    forms = {n: a["form"] for f in listed["named"] for n, a in f["about"].items()}
+    assert (forms["rows"], forms["angle"], forms["width"]) == ("N", "DEG", "MM")
+    files = {file["ending"]: file["about"] for file in listed["files"]}
+    assert [*files] == [*READERS]
+    assert files[".svg"]["no_split"] == {
+        "form": None,
+        "text": "refuse segments that cross instead of splitting them",
+    }
+    assert set(files[".json"]) >= {"repair", "tolerance", "snap"}
+    assert "flatten" not in files[".json"]
 
 
 def test_options_are_those_of_the_catalogue():
@@ -316,7 +332,7 @@ def test_a_picture_has_every_part_in_the_colour_of_its_kind(run, tmp_path):
     path = tmp_path / "picture.svg"
     assert run("3.4.6.4", "--picture", path)[0] == 0
     frame = named("3.4.6.4")
-    same = sameness(frame)
+    same = classify(frame)
     assert path.read_text().startswith(frame_svg(frame, same))
     edges, joints = ElementTree.parse(path).getroot().findall(f"{SVG}g")[:2]
     lines = {p.get("stroke"): p.get("d").count("M") for p in edges}
@@ -327,7 +343,7 @@ def test_a_picture_has_every_part_in_the_colour_of_its_kind(run, tmp_path):
 
 def test_a_picture_is_the_frame_to_scale_y_up():
     frame = make_frame("hook", [[0, 0], [0, 300], [40, 300]], [[0, 1], [1, 2]])
-    root = ElementTree.fromstring(frame_svg(frame, sameness(frame)))
+    root = ElementTree.fromstring(frame_svg(frame, classify(frame)))
     assert (float(root.get("width")), root.get("viewBox").split()[0]) == (900, "0")
     discs = root.findall(f"{SVG}g")[1].iter(f"{SVG}circle")
     points = np.array(sorted((float(d.get("cx")), -float(d.get("cy"))) for d in discs))

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from scadgen.errors import InputError
-from scadgen.frame.catalogue import NAMES, named
+from scadgen.plane.catalogue import NAMES, named
 from scadgen.readers.read import read
 from scadgen.readers.reading import Reading
 
@@ -43,14 +43,14 @@ def test_a_frame_drawn_as_svg_lines_and_read_back_is_the_same(svg, name):
     (left, low), (right, high) = frame.bounds.tolist()
     lines = [
         f'<line x1="{a}" y1="{-b}" x2="{c}" y2="{-d}"/>'
-        for (a, b), (c, d) in frame.vertices[frame.edges].tolist()
+        for (a, b), (c, d) in frame.plan[frame.edges].tolist()
     ]
     width, height = right - left, high - low
     page = f'width="{width}mm" height="{height}mm" viewBox="{left} {-high} {width} {height}"'
     result = svg("".join(lines), page=page)
     assert result.notes == ()
     assert np.array_equal(result.frame.edges, frame.edges)
-    assert result.frame.vertices == pytest.approx(frame.vertices - [left, low], abs=1e-6)
+    assert result.frame.plan == pytest.approx(frame.plan - [left, low], abs=1e-6)
 
 
 def test_shapes_are_their_outlines(svg):
@@ -64,7 +64,7 @@ def test_shapes_are_their_outlines(svg):
 def test_y_goes_up_as_the_drawing_looks(svg):
     # A mast of 30 on the left of a floor of 50 at the bottom of the page.
     frame = svg('<polyline points="0,70 0,100 50,100"/>').frame
-    assert frame.vertices.tolist() == [[0, 0], [50, 0], [0, 30]]
+    assert frame.plan.tolist() == [[0, 0], [50, 0], [0, 30]]
 
 
 def test_units_and_view_boxes_give_millimetres(svg):
@@ -118,9 +118,9 @@ def test_a_circle_is_a_polygon_within_the_tolerance(svg, flatten, shape):
     assert float(within) == flatten
     # That which closes the outline may have no length, nor the straight sides of the rectangle.
     assert 0 <= int(count) - len(frame.edges) <= 5
-    from_middle = np.linalg.norm(frame.vertices - 50, axis=1)
+    from_middle = np.linalg.norm(frame.plan - 50, axis=1)
     assert from_middle == pytest.approx(40, abs=1e-6)
-    middles = frame.vertices[frame.edges].mean(axis=1) - 50
+    middles = frame.plan[frame.edges].mean(axis=1) - 50
     assert np.linalg.norm(middles, axis=1).min() >= 40 - flatten - 1e-9
     # Not many more chords than the sagitta needs; whole numbers in each quarter.
     needed = math.pi / math.acos(1 - flatten / 40)
@@ -134,7 +134,7 @@ def test_bezier_curves_are_within_the_tolerance(svg, flatten):
     t = np.linspace(0, 1, 2001)[:, None]
     points = [np.array(p, dtype=float) for p in ((0, 0), (0, 100), (100, 100), (100, 0))]
     curve = sum(math.comb(3, k) * t**k * (1 - t) ** (3 - k) * p for k, p in enumerate(points))
-    start, end = frame.vertices[frame.edges].transpose(1, 0, 2)
+    start, end = frame.plan[frame.edges].transpose(1, 0, 2)
     along = end - start
     share = ((curve[:, None] - start) * along).sum(axis=2) / (along**2).sum(axis=1)
     foot = start + np.clip(share, 0, 1)[..., None] * along

@@ -10,10 +10,10 @@ import pytest
 from scadgen.check.frame import rings as build_of
 from scadgen.cli.main import main
 from scadgen.emit.frame_picture import frame_svg
-from scadgen.frame.catalogue import named
+from scadgen.frame.classes import classify
 from scadgen.frame.joints import least_ring_ratio
-from scadgen.frame.sameness import sameness
-from scadgen.frame.snapping import move_vertices
+from scadgen.plane.catalogue import named
+from scadgen.plane.snapping import move_vertices
 from scadgen.readers.read import read
 
 ROOT = Path(__file__).parent.parent
@@ -49,7 +49,7 @@ def test_there_are_no_other_examples():
 
 def test_the_star_pattern_has_few_kinds_of_parts():
     # Joints: crossings, notches of stars, tips at the rim, and the inner corners of kites.
-    same = sameness(read(FRAMES / "star.svg").frame)
+    same = classify(read(FRAMES / "star.svg").frame)
     assert len(same.joints) == 4
     # Lines of stars and the two long sides of kites are equally long; the short sides are
     # that over the golden ratio.
@@ -59,7 +59,7 @@ def test_the_star_pattern_has_few_kinds_of_parts():
 
 def test_stars_and_crosses_have_right_angles_at_all_tips():
     frame = read(FRAMES / "crosses.svg").frame
-    same = sameness(frame)
+    same = classify(frame)
     assert len({round(edge.length, 4) for edge in same.edges}) == 1
     # Two stars touch at each of 7 tips; all other corners have two edges.
     assert np.count_nonzero(frame.degree == 4) == 7
@@ -70,7 +70,7 @@ def test_stars_and_crosses_have_right_angles_at_all_tips():
 def test_the_one_drawn_by_hand_is_hexagons_when_it_is_snapped():
     rough = read(FRAMES / "rough.svg").frame
     found = move_vertices(rough, 2.0)
-    hexagons = sameness(named("hexagonal", rows=2, columns=3))
+    hexagons = classify(named("hexagonal", rows=2, columns=3))
     assert found.after == (len(hexagons.joints), len(hexagons.edges)) == (2, 3)
     assert found.before == (22, 27)
 
@@ -80,7 +80,7 @@ def test_each_example_has_its_picture(name):
     (path,) = FRAMES.glob(f"{name}.*")
     frame = read(path).frame
     drawn = ROOT / "docs" / "pictures" / f"frame_{name}.svg"
-    assert drawn.read_text() == frame_svg(frame, sameness(frame))
+    assert drawn.read_text() == frame_svg(frame, classify(frame))
 
 
 def test_the_gallery_has_each_example_with_its_facts():
@@ -94,7 +94,7 @@ def test_the_gallery_has_each_example_with_its_facts():
     for link, elements, joints, joint_kinds, edge_kinds, side in rows:
         name = link[1 : link.index("]")]
         frame = read(FRAMES / name).frame
-        same = sameness(frame)
+        same = classify(frame)
         assert (int(elements), int(joints)) == (len(frame.edges), len(frame.vertices))
         assert (int(joint_kinds), int(edge_kinds)) == (len(same.joints), len(same.edges))
         largest = build_of(frame, same).largest_side
@@ -126,4 +126,4 @@ def test_the_script_draws_them_again(tmp_path):
     for name in FACTS:
         again, there = read(tmp_path / name).frame, read(FRAMES / name).frame
         assert np.array_equal(again.edges, there.edges)
-        assert again.vertices == pytest.approx(there.vertices, abs=0.01)
+        assert again.plan == pytest.approx(there.plan, abs=0.01)

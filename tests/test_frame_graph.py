@@ -8,9 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from scadgen.errors import InputError, InvariantError
-from scadgen.frame import planarity
-from scadgen.frame.graph import LARGEST, Frame, make_frame
-from scadgen.frame.planarity import crossings, touches
+from scadgen.frame.graph import Frame
+from scadgen.plane import planarity
+from scadgen.plane.drawn import LARGEST, make_frame
+from scadgen.plane.planarity import crossings, touches
 
 #: A square with a diagonal, and a mast on its upper right corner.
 POINTS = np.array([[0, 0], [10, 0], [10, 10], [0, 10], [10, 30]], dtype=float)
@@ -23,7 +24,7 @@ def kite():
 
 
 def test_vertices_ascend_by_y_then_x_and_edges_by_vertex(kite):
-    assert kite.vertices.tolist() == [[0, 0], [10, 0], [0, 10], [10, 10], [10, 30]]
+    assert kite.plan.tolist() == [[0, 0], [10, 0], [0, 10], [10, 10], [10, 30]]
     assert kite.edges.tolist() == [[0, 1], [0, 2], [0, 3], [1, 3], [2, 3], [3, 4]]
 
 
@@ -43,7 +44,7 @@ def test_equal_frames_are_one_in_a_set(kite):
 
 def test_a_frame_cannot_be_changed(kite):
     with pytest.raises(ValueError, match="read-only"):
-        kite.vertices[0, 0] = 1.0
+        kite.plan[0, 0] = 1.0
 
 
 def test_degrees_lengths_bounds(kite):
@@ -64,7 +65,7 @@ def test_directions_go_round_and_gaps_sum_to_a_turn(kite):
 def test_a_slot_is_the_place_of_an_edge_among_the_directions(kite):
     for (i, j), slots in zip(kite.edges, kite.slots, strict=True):
         for start, end, slot in ((i, j, slots[0]), (j, i, slots[1])):
-            dx, dy = kite.vertices[end] - kite.vertices[start]
+            dx, dy = kite.plan[end] - kite.plan[start]
             assert kite.directions(start)[slot] == pytest.approx(np.arctan2(dy, dx) % (2 * np.pi))
     ends = kite.ends
     assert (kite.edges[ends.edge] == ends.neighbour[:, None]).any(axis=1).all()
@@ -121,9 +122,9 @@ def test_what_is_no_planar_frame_is_refused_with_its_place(points, edges, said):
     assert "\n" not in str(error.value)
 
 
-def test_a_frame_out_of_order_is_a_bug():
+def test_a_frame_out_of_order_is_a_bug(kite):
     with pytest.raises(InvariantError, match="canonical order"):
-        Frame("bad", POINTS, EDGES)
+        Frame("bad", kite.vertices[::-1], kite.normals, kite.edges, kite.order)
 
 
 def test_crossings_and_touches_are_found():

@@ -8,7 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from scadgen.errors import GeometryError
-from scadgen.frame.catalogue import named
 from scadgen.frame.joints import (
     least_gap,
     least_ring_ratio,
@@ -17,6 +16,7 @@ from scadgen.frame.joints import (
 )
 from scadgen.joint.lattice import make_lattice
 from scadgen.joint.spokes import Spokes
+from scadgen.plane.catalogue import named
 
 
 def test_tubes_that_touch_by_hand():

@@ -10,18 +10,18 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import Delaunay
 
-from scadgen.frame.catalogue import NAMES, named
-from scadgen.frame.graph import make_frame
-from scadgen.frame.keys import Refused
+from scadgen.frame.classes import classify
 from scadgen.frame.kinds import choose_kinds
-from scadgen.frame.sameness import sameness
+from scadgen.frame.slots import Refused
 from scadgen.joint.joint import wall_angles
 from scadgen.joint.spokes import Spokes
 from scadgen.joint.weave import any_joint
+from scadgen.plane.catalogue import NAMES, named
+from scadgen.plane.drawn import make_frame
 
 
 def kinds_of(frame, **options):
-    return choose_kinds(frame, sameness(frame), **options)
+    return choose_kinds(frame, classify(frame), **options)
 
 
 def whole_edges(frame, kinds):
@@ -49,7 +49,7 @@ def assert_can_be_put_together(frame, kinds):
 def assert_directions_are_those_of_the_edges(frame, kinds):
     for edge, (pair, slots) in enumerate(zip(frame.edges, kinds.slots, strict=True)):
         for end, vertex in enumerate(pair):
-            step = frame.vertices[pair[1 - end]] - frame.vertices[vertex]
+            step = frame.plan[pair[1 - end]] - frame.plan[vertex]
             turn = kinds.directions(vertex)[slots[end]]
             off = (np.arctan2(step[1], step[0]) - turn + np.pi) % (2 * np.pi) - np.pi
             assert abs(off) < 3e-4, (edge, end)
@@ -194,7 +194,7 @@ def test_a_drawing_has_the_same_kinds_however_it_is_turned(name):
     found = set()
     for degrees in (0, 19, 30, 79):
         c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-        points = (frame.vertices @ np.array([[c, s], [-s, c]])).round(3)
+        points = (frame.plan @ np.array([[c, s], [-s, c]])).round(3)
         kinds = kinds_of(make_frame(name, points, frame.edges))
         keys = sum(len(kinds.kinds[number].keys) for number in kinds.kind_of)
         found.add((len(kinds.kinds), keys))

@@ -14,8 +14,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from scadgen.errors import InputError
-from scadgen.frame.catalogue import NAMES, named
-from scadgen.frame.graph import make_frame
+from scadgen.plane.catalogue import NAMES, named
+from scadgen.plane.drawn import make_frame
 from scadgen.readers.json_frame import dumps
 from scadgen.readers.read import READERS, read
 from scadgen.readers.reading import Reading, read_regular
@@ -114,7 +114,7 @@ def test_listed_edges_are_repaired_where_that_is_wanted(tmp_path):
         "goes from vertex 3 at (5, 5) to itself; --repair mends what it can"
     )
     found = read(path, Reading(repair=True))
-    assert found.frame.vertices.tolist() == [[5, -5], [0, 0], [5, 0], [10, 0], [20, 0], [5, 5]]
+    assert found.frame.plan.tolist() == [[5, -5], [0, 0], [5, 0], [10, 0], [20, 0], [5, 5]]
     assert len(found.frame.edges) == 5
     said = "\n".join(found.notes)
     for what in (
@@ -231,7 +231,7 @@ def test_json_counts_as_the_file_does(tmp_path):
     for number, (start, end) in enumerate(SIDES):
         said = refusal(path, Reading(shortest=100.0)) if number == 1 else ""
         at = frame.called.edges.tolist().index(number)
-        places = frame.vertices[frame.edges[at]].tolist()
+        places = frame.plan[frame.edges[at]].tolist()
         assert sorted(places) == sorted([CORNERS[start], CORNERS[end]])
         assert frame.called_edge(at).startswith(f"edge {number} from vertex ")
         for vertex in (start, end):
@@ -259,7 +259,7 @@ def test_meshes_count_as_the_file_does(tmp_path, kind, first):
         text = "\n".join(["OFF", "6 2 0", *rows, *(f"3 {a} {b} {c}" for a, b, c in faces)])
     path = written(tmp_path, f"a{kind}", text)
     frame = read(path).frame
-    for at, point in enumerate(frame.vertices.tolist()):
+    for at, point in enumerate(frame.plan.tolist()):
         assert frame.called_vertex(at).startswith(f"vertex {points.index(point) + first} at ")
     said = refusal(path, Reading(shortest=91.0))
     number, x, y = map(int, re.search(r"vertex (\d) at \((\d+), (\d+)\)", said).groups())
@@ -301,7 +301,7 @@ def test_readings_that_make_no_sense_are_refused(wrong):
 def test_obj_gives_the_sides_of_faces_and_lines(tmp_path):
     text = f"# a roof\no top\n{CUBE_TOP}vn 0 0 1\nv 4 2 5\nf 1/1/1 2//1 3 4\nl 3 -1\ns off\n"
     frame = read(written(tmp_path, "a.obj", text)).frame
-    assert frame.vertices.tolist() == [[0, 0], [2, 0], [0, 2], [2, 2], [4, 2]]
+    assert frame.plan.tolist() == [[0, 0], [2, 0], [0, 2], [2, 2], [4, 2]]
     assert frame.edges.tolist() == [[0, 1], [0, 2], [1, 3], [2, 3], [3, 4]]
 
 
@@ -375,7 +375,7 @@ def test_a_steep_plane_is_laid_flat_the_shortest_way(tmp_path, tilt):
     up = math.radians(tilt)
     lines = [f"v {x} {y * math.cos(up)} {y * math.sin(up)}\n" for x, y in flat.tolist()]
     frame = read(written(tmp_path, "a.obj", "".join([*lines, "f 1 2 3 4\n"]))).frame
-    assert frame.vertices == pytest.approx(flat, abs=1e-9)
+    assert frame.plan == pytest.approx(flat, abs=1e-9)
 
 
 def test_a_plane_of_many_vertices_is_read_in_a_moment(tmp_path):
@@ -479,5 +479,5 @@ def test_obj_is_read_as_programs_write_it(tmp_path, text, edges, notes):
 )
 def test_off_is_free_text_but_for_the_ends_of_faces(tmp_path, text):
     frame = read(written(tmp_path, "a.off", text)).frame
-    assert frame.vertices.tolist() == [[0, 0], [2, 0], [0, 2], [2, 2]]
+    assert frame.plan.tolist() == [[0, 0], [2, 0], [0, 2], [2, 2]]
     assert len(frame.edges) == 5

@@ -8,14 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scadgen.errors import InputError
-from scadgen.frame.catalogue import named
-from scadgen.frame.repair import REPAIRS, repair
+from scadgen.plane.catalogue import named
+from scadgen.plane.repair import REPAIRS, repair
 
 NONE = dict.fromkeys(REPAIRS, 0)
 
 
 def segments(frame):
-    return frame.vertices[frame.edges]
+    return frame.plan[frame.edges]
 
 
 def drawn(result):
@@ -41,7 +41,7 @@ def test_ends_that_are_not_close_stay_apart():
 def test_crossings_are_split():
     result = repair("cross", [[[0, 0], [10, 10]], [[0, 10], [10, 0]]])
     assert len(result.frame.edges) == 4
-    assert [5, 5] in result.frame.vertices.tolist()
+    assert [5, 5] in result.frame.plan.tolist()
     assert result.counts == NONE | {"crossings": 1}
     assert result.notes == ("crossing split at (5, 5)",)
 

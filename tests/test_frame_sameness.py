@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from scadgen.errors import InputError
-from scadgen.frame.catalogue import NAMES, named
-from scadgen.frame.graph import make_frame
-from scadgen.frame.sameness import group_values, sameness, snap
+from scadgen.frame.classes import classify, group_values, snap
+from scadgen.plane.catalogue import NAMES, named
+from scadgen.plane.drawn import make_frame
 
 
 def star(*gaps):
@@ -35,7 +35,7 @@ def together(*parts):
 
 
 def mirrored(frame):
-    return frame.vertices * [-1, 1], frame.edges
+    return frame.plan * [-1, 1], frame.edges
 
 
 def partition(labels):
@@ -50,7 +50,7 @@ def classes(same, degree):
 
 
 def test_hexagonal_has_one_inner_joint_in_two_orientations():
-    same = sameness(named("hexagonal", rows=4, columns=4))
+    same = classify(named("hexagonal", rows=4, columns=4))
     (inner,) = classes(same, 3)
     assert inner.symmetry.turns == 3
     assert np.degrees(inner.directions) == pytest.approx([0, 120, 240], abs=1e-9)
@@ -63,7 +63,7 @@ def test_hexagonal_has_one_inner_joint_in_two_orientations():
 
 
 def test_square_has_an_inner_a_side_and_a_corner_joint():
-    same = sameness(named("square", rows=4, columns=4))
+    same = classify(named("square", rows=4, columns=4))
     assert [(len(j.directions), j.symmetry.turns, len(j.vertices)) for j in same.joints] == [
         (2, 1, 4),
         (3, 1, 12),
@@ -78,7 +78,7 @@ def test_square_has_an_inner_a_side_and_a_corner_joint():
 def test_3464_has_one_inner_joint_that_is_itself_turned_over():
     # Gaps 60, 90, 120, 90: read backwards they are the same cycle, and no turn maps them on
     # themselves.  It stands in the six orientations of the hexagon's corners.
-    same = sameness(named("3.4.6.4", rows=4, columns=4))
+    same = classify(named("3.4.6.4", rows=4, columns=4))
     (inner,) = classes(same, 4)
     assert inner.symmetry.turns == 1
     assert inner.symmetry.mirror is not None
@@ -90,7 +90,7 @@ def test_every_other_joint_of_4612_is_turned_over():
     # Gaps 90, 120, 150 one way round in one half of them, the other way in the other, and every
     # edge is between the two.
     frame = named("4.6.12", rows=4, columns=4)
-    same = sameness(frame)
+    same = classify(frame)
     (inner,) = classes(same, 3)
     gap = np.degrees(np.diff(np.append(inner.directions, 2 * np.pi)))
     assert np.roll(gap, -int(gap.argmin())).round(6).tolist() in [[90, 120, 150], [90, 150, 120]]
@@ -100,7 +100,7 @@ def test_every_other_joint_of_4612_is_turned_over():
 
 
 def test_a_joint_is_the_same_as_one_with_its_edges_the_other_way_around_turned_over():
-    same = sameness(together(star(80, 120, 160), star(80, 160, 120), star(120, 160, 80)))
+    same = classify(together(star(80, 120, 160), star(80, 160, 120), star(120, 160, 80)))
     (centres,) = classes(same, 3)
     over = same.over[centres.vertices]
     assert over[0] == over[2] != over[1]
@@ -110,8 +110,8 @@ def test_a_joint_is_the_same_as_one_with_its_edges_the_other_way_around_turned_o
 def test_a_frame_turned_over_is_made_of_the_same_joints_and_edges(name):
     frame = named(name)
     alone, both = (
-        sameness(frame),
-        sameness(together((frame.vertices, frame.edges), mirrored(frame))),
+        classify(frame),
+        classify(together((frame.plan, frame.edges), mirrored(frame))),
     )
     assert len(alone.joints) == len(both.joints)
     assert len(alone.edges) == len(both.edges)
@@ -120,7 +120,7 @@ def test_a_frame_turned_over_is_made_of_the_same_joints_and_edges(name):
 
 
 def test_a_rectangle_has_edges_of_two_lengths_between_like_joints():
-    same = sameness(named("rectangular", width=60.0, height=40.0, rows=4, columns=4))
+    same = classify(named("rectangular", width=60.0, height=40.0, rows=4, columns=4))
     inner = len(same.joints) - 1
     between = [edge for edge in same.edges if edge.joints == (inner, inner)]
     assert [edge.length for edge in between] == [40.0, 60.0]
@@ -129,7 +129,7 @@ def test_a_rectangle_has_edges_of_two_lengths_between_like_joints():
 @pytest.mark.parametrize("name", NAMES)
 def test_turn_and_shift_map_the_class_onto_each_joint(name):
     frame = named(name)
-    same = sameness(frame)
+    same = classify(frame)
     for number, joint in enumerate(same.joints):
         assert len(joint.directions) == joint.symmetry.period * joint.symmetry.turns
         assert joint.directions[0] == 0
@@ -154,7 +154,7 @@ def joint_from(joint, slot, way=1):
 @pytest.mark.parametrize("name", NAMES)
 def test_each_edge_connects_what_its_class_says(name):
     frame = named(name)
-    same = sameness(frame)
+    same = classify(frame)
     for number, kind in enumerate(same.edges):
         for edge in kind.edges:
             assert same.edge_of[edge] == number
@@ -185,12 +185,12 @@ def test_turning_moving_and_renumbering_change_no_group(name, degrees, move, see
     angle = math.radians(degrees)
     turn = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
     order = np.random.default_rng(seed).permutation(len(frame.vertices))
-    moved = frame.vertices @ turn + move
+    moved = frame.plan @ turn + move
     other = make_frame("moved", moved[order], np.argsort(order)[frame.edges])
-    number = cKDTree(other.vertices).query(moved)[1]
+    number = cKDTree(other.plan).query(moved)[1]
     rows = {tuple(edge): n for n, edge in enumerate(other.edges.tolist())}
     edge_number = [rows[tuple(sorted(number[edge].tolist()))] for edge in frame.edges]
-    one, two = sameness(frame), sameness(other)
+    one, two = classify(frame), classify(other)
     assert partition(one.joint_of) == partition(two.joint_of[number])
     assert partition(one.edge_of) == partition(two.edge_of[edge_number])
     assert (two.over[number] == one.over).all()
@@ -203,17 +203,17 @@ def test_turning_moving_and_renumbering_change_no_group(name, degrees, move, see
 def test_edges_at_alike_slots_of_a_symmetric_joint_are_alike():
     # Gaps 60, 120, 60, 120: half a turn maps the joint on itself, and turning it over swaps the
     # edges beside a gap, so that all four arms are one kind.
-    same = sameness(together(star(60, 120, 60, 120)))
+    same = classify(together(star(60, 120, 60, 120)))
     assert same.joints[-1].symmetry.turns == 2
     assert [len(edge.edges) for edge in same.edges] == [4]
 
 
 def test_angles_within_the_tolerance_are_the_same_and_beyond_it_not():
     frame = together(star(100, 120, 140), star(100.2, 120, 139.8), star(101, 120, 139))
-    joints = classes(sameness(frame, math.radians(0.2)), 3)
+    joints = classes(classify(frame, math.radians(0.2)), 3)
     assert sorted(len(joint.vertices) for joint in joints) == [1, 2]
-    assert len(classes(sameness(frame), 3)) == 3
-    assert len(classes(sameness(frame, math.radians(2)), 3)) == 1
+    assert len(classes(classify(frame), 3)) == 3
+    assert len(classes(classify(frame, math.radians(2)), 3)) == 1
 
 
 def test_numbers_are_grouped_into_as_few_as_can_be():
@@ -235,7 +235,7 @@ def test_snapping_makes_fewer_parts_and_says_what_it_costs():
     longer = rungs * [1, 40.3 / 40]
     edges = np.array([[0, 1], [2, 3], [0, 2], [1, 3]])
     frame = together((rungs, edges), (longer, edges))
-    assert sorted({e.length for e in sameness(frame).edges}) == pytest.approx([40, 40.3, 50])
+    assert sorted({e.length for e in classify(frame).edges}) == pytest.approx([40, 40.3, 50])
     snapped = snap(frame, 0.01, 0.2)
     assert sorted({e.length for e in snapped.same.edges}) == pytest.approx([40.15, 50])
     assert snapped.length_error == pytest.approx(0.15)
@@ -256,18 +256,18 @@ def test_snapped_angles_are_within_the_tolerance():
 @pytest.mark.parametrize("angle", [0, -1, math.nan, math.radians(40)])
 def test_angles_that_would_merge_edges_are_refused(angle):
     with pytest.raises(InputError, match=r"angle_tolerance = .*a quarter of the smallest gap"):
-        sameness(named("square"), angle)
+        classify(named("square"), angle)
 
 
 def test_lengths_need_a_tolerance():
     with pytest.raises(InputError, match="tolerance = 0"):
-        sameness(named("square"), 0.01, 0)
+        classify(named("square"), 0.01, 0)
 
 
 def test_thirty_thousand_edges_are_grouped_in_two_seconds():
     frame = named("hexagonal", rows=100, columns=100)
     assert len(frame.edges) == 30_399
     start = time.process_time()
-    same = sameness(frame)
+    same = classify(frame)
     assert time.process_time() - start < 2.0
     assert (len(same.joints), len(same.edges)) == (2, 3)

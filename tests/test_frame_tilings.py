@@ -9,10 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scadgen.errors import InputError
-from scadgen.frame.catalogue import ALIASES, NAMES, OPTIONS, named
-from scadgen.frame.cells import LAVES, LEFT_OUT, UNIFORM
-from scadgen.frame.simple import ladder, ring, strip
-from scadgen.frame.tilings import MOST_TILES, laves, rectangular, rhombic, uniform
+from scadgen.plane.area import MOST_TILES
+from scadgen.plane.catalogue import ALIASES, NAMES, OPTIONS, named
+from scadgen.plane.cells import LAVES, LEFT_OUT, UNIFORM
+from scadgen.plane.simple import ladder, ring, strip
+from scadgen.plane.tilings import laves, rectangular, rhombic, uniform
 
 #: Tiles of one cell by their number of sides, from the angles at a vertex by hand: a vertex
 #: of configuration (..., n, ...) has 1/n of an n-gon for each time n occurs.
@@ -36,7 +37,7 @@ def faces(frame):
     around = defaultdict(list)
     for a, b in frame.edges.tolist():
         for start, end in ((a, b), (b, a)):
-            dx, dy = frame.vertices[end] - frame.vertices[start]
+            dx, dy = frame.plan[end] - frame.plan[start]
             around[start].append((math.atan2(dy, dx), end))
     after = {}
     for vertex, found in around.items():
@@ -50,7 +51,7 @@ def faces(frame):
         while dart in after:
             face.append(dart[0])
             dart = after.pop(dart)
-        x, y = frame.vertices[face].T
+        x, y = frame.plan[face].T
         if x @ np.roll(y, -1) - y @ np.roll(x, -1) > 0:
             result.append(face)
     return result
@@ -67,9 +68,9 @@ def interior(frame, found):
     """Vertices with as many faces as edges, and the sizes of these faces in order."""
     sizes = defaultdict(list)
     for face in found:
-        x, y = frame.vertices[face].mean(axis=0)
+        x, y = frame.plan[face].mean(axis=0)
         for vertex in face:
-            at = frame.vertices[vertex]
+            at = frame.plan[vertex]
             sizes[vertex].append((math.atan2(y - at[1], x - at[0]), len(face)))
     return {
         vertex: [size for _, size in sorted(around)]
@@ -85,7 +86,7 @@ def test_there_are_eleven_uniform_tilings():
 
 @pytest.mark.parametrize("name", CELLS)
 def test_every_interior_vertex_has_the_faces_that_the_name_says(name):
-    frame = uniform(name, 10.0, rows=5, columns=5)
+    frame = uniform(name, 10.0).fill(rows=5, columns=5)
     found = faces(frame)
     inside = interior(frame, found)
     wanted = turned_to_first([int(size) for size in name.split(".")])
@@ -97,7 +98,7 @@ def test_every_interior_vertex_has_the_faces_that_the_name_says(name):
 
 @pytest.mark.parametrize("name", CELLS)
 def test_rows_and_columns_are_whole_cells_without_holes(name):
-    frame = uniform(name, 10.0, rows=3, columns=5)
+    frame = uniform(name, 10.0).fill(rows=3, columns=5)
     found = faces(frame)
     assert Counter(map(len, found)) == {size: 15 * n for size, n in CELLS[name].items()}
     # Euler: one piece without holes has V - E + F = 1, the outside not counted.
@@ -108,9 +109,9 @@ def test_rows_and_columns_are_whole_cells_without_holes(name):
 
 @pytest.mark.parametrize("name", CELLS)
 def test_faces_are_regular(name):
-    frame = uniform(name, 10.0, rows=2, columns=2)
+    frame = uniform(name, 10.0).fill(rows=2, columns=2)
     for face in faces(frame):
-        corners = frame.vertices[face]
+        corners = frame.plan[face]
         # A regular n-gon of side s has the circumradius s / (2 sin(pi / n)).
         radius = np.linalg.norm(corners - corners.mean(axis=0), axis=1)
         assert radius == pytest.approx(5.0 / math.sin(math.pi / len(face)))
@@ -120,23 +121,23 @@ def test_faces_are_regular(name):
 @settings(deadline=None, max_examples=25)
 def test_counts_of_hexagons_and_squares_by_hand(rows, columns):
     # A row of c hexagons has 5 c + 1 edges; each further row adds what it does not share.
-    hexagons = uniform("6.6.6", 10.0, rows=rows, columns=columns)
+    hexagons = uniform("6.6.6", 10.0).fill(rows=rows, columns=columns)
     assert len(hexagons.vertices) == 2 * (rows * columns + rows + columns)
     assert len(hexagons.edges) == 3 * rows * columns + 2 * rows + 2 * columns - 1
-    squares = uniform("4.4.4.4", 10.0, rows=rows, columns=columns)
+    squares = uniform("4.4.4.4", 10.0).fill(rows=rows, columns=columns)
     assert len(squares.vertices) == (rows + 1) * (columns + 1)
     assert len(squares.edges) == rows * (columns + 1) + columns * (rows + 1)
 
 
 def test_hexagons_stand_in_rows_above_one_another():
     width = 10 * math.sqrt(3)
-    low, high = uniform("6.6.6", 10.0, rows=9, columns=4).bounds
+    low, high = uniform("6.6.6", 10.0).fill(rows=9, columns=4).bounds
     assert high - low == pytest.approx([4.5 * width, 8 * 15 + 20])
 
 
 @pytest.mark.parametrize("name", LAVES)
 def test_every_face_of_a_dual_has_the_degrees_that_the_name_says(name):
-    frame = laves(name, 10.0, rows=4, columns=4)
+    frame = laves(name, 10.0).fill(rows=4, columns=4)
     found = faces(frame)
     degrees = [int(size) for size in name.split(".")]
     assert {len(face) for face in found} == {len(degrees)}
@@ -156,7 +157,7 @@ def test_lengths_of_a_dual_are_sums_of_apothems(name):
     degrees = [int(size) for size in name.split(".")]
     neighbours = list(zip(degrees, degrees[1:] + degrees[:1], strict=True))
     spans = sorted({round(apothem(a) + apothem(b), 9) for a, b in neighbours})
-    frame = laves(name, 10.0, rows=3, columns=3)
+    frame = laves(name, 10.0).fill(rows=3, columns=3)
     assert sorted(set(frame.lengths.round(6))) == pytest.approx(
         [10 * span / spans[0] for span in spans]
     )
@@ -174,18 +175,18 @@ def test_the_other_duals_are_regular_tilings_themselves():
 
 
 def test_a_circle_keeps_the_tiles_that_just_fit():
-    one = uniform("6.6.6", 10.0, radius=10.0)
+    one = uniform("6.6.6", 10.0).fill(radius=10.0)
     assert (len(one.vertices), len(one.edges)) == (6, 6)
     # The farthest corner of the hexagons around it is sqrt(7) edges away.
-    seven = uniform("6.6.6", 10.0, radius=10 * math.sqrt(7))
+    seven = uniform("6.6.6", 10.0).fill(radius=10 * math.sqrt(7))
     assert (len(seven.vertices), len(seven.edges)) == (24, 30)
-    assert uniform("6.6.6", 10.0, radius=10 * math.sqrt(7) - 0.01) == one
+    assert uniform("6.6.6", 10.0).fill(radius=10 * math.sqrt(7) - 0.01) == one
 
 
 @pytest.mark.parametrize("name", [*UNIFORM, *(f"V{name}" for name in LAVES)])
 def test_within_a_circle_no_edge_dangles_and_all_hangs_together(name):
     frame = named(name, edge_length=10.0, radius=61.0)
-    assert np.linalg.norm(frame.vertices, axis=1).max() <= 61.0 + 1e-4
+    assert np.linalg.norm(frame.plan, axis=1).max() <= 61.0 + 1e-4
     assert frame.degree.min() >= 2
     assert frame.components.max() == 0
     found = faces(frame)
@@ -195,7 +196,7 @@ def test_within_a_circle_no_edge_dangles_and_all_hangs_together(name):
 
 def test_a_polygon_is_filled_from_its_middle():
     box = [[100, 100], [200, 100], [200, 200], [100, 200]]
-    frame = uniform("4.4.4.4", 20.0, outline=box)
+    frame = uniform("4.4.4.4", 20.0).fill(outline=box)
     assert len(frame.vertices) == 36
     assert frame.bounds.tolist() == [[100, 100], [200, 200]]
 
@@ -204,15 +205,15 @@ def test_of_tiles_that_do_not_hang_together_the_most_are_kept():
     # Rooms of 5 x 5 and 3 x 5 squares, with a corridor between them that is too low.
     rooms = [[0, 0], [50, 0], [50, 24], [60, 24], [60, 0], [90, 0], [90, 50]]
     rooms += [[60, 50], [60, 26], [50, 26], [50, 50], [0, 50]]
-    frame = uniform("4.4.4.4", 10.0, outline=rooms)
+    frame = uniform("4.4.4.4", 10.0).fill(outline=rooms)
     assert frame.components.max() == 0
     assert frame.bounds.tolist() == [[0, 0], [50, 50]]
 
 
 def test_rectangles_and_rhombs_have_their_sides_and_angles():
-    frame = rectangular(60.0, 25.0, rows=2, columns=3)
+    frame = rectangular(60.0, 25.0).fill(rows=2, columns=3)
     assert frame.bounds.tolist() == [[0, 0], [180, 50]]
-    lean = rhombic(70.0, 10.0, rows=3, columns=3)
+    lean = rhombic(70.0, 10.0).fill(rows=3, columns=3)
     middle = np.flatnonzero(lean.degree == 4)
     assert len(middle) == 4
     assert np.degrees(lean.gaps(int(middle[0]))) == pytest.approx([70, 110, 70, 110])

@@ -12,16 +12,16 @@ from kits import kit, random_inside, tee, tiled
 
 from scadgen.emit.macro import workbench
 from scadgen.frame import placement
-from scadgen.frame.catalogue import NAMES
 from scadgen.kit import cells as engine_cells
 from scadgen.kit.entries import pose_entry
 from scadgen.kit.solids import REGULAR
 from scadgen.kit.store import dumps
+from scadgen.plane.catalogue import NAMES
 
 sys.path.append(str(workbench()))
 from freecad.scadgen import cells, sense
-from freecad.scadgen.affine import KitError, parse_kit, read_kit
 from freecad.scadgen.faces import newell
+from freecad.scadgen.kit_data import KitError, parse_kit, read_kit
 
 KINDS = {"hexagonal": ("hexagonal", "fixed", 0.0), "square": ("square", "loose", 1.5)}
 

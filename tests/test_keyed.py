@@ -12,12 +12,12 @@ from scadgen.check.geometry import same
 from scadgen.check.proof import proved
 from scadgen.cli.main import main
 from scadgen.errors import GeometryError, JointError
-from scadgen.frame.graph import make_frame
 from scadgen.kit.build import build
 from scadgen.kit.store import dumps, loads
 from scadgen.plan.keyed import proved_kit
 from scadgen.plan.standing import stand
 from scadgen.plan.whole import parting_joints, whole_frame
+from scadgen.plane.drawn import make_frame
 
 
 def request(name, points, edges):

@@ -8,12 +8,12 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from kits import drawn, once
 
+from scadgen.check.disassembly import come_apart
 from scadgen.check.geometry import placed
-from scadgen.check.openings import Openings
-from scadgen.check.ways import come_apart
-from scadgen.frame.graph import make_frame
+from scadgen.check.opening_motions import Openings
 from scadgen.interlock.path import replay
 from scadgen.kit.build import build
+from scadgen.plane.drawn import make_frame
 
 #: No search begins in it, but a way that is known or opened needs none.
 NO_TIME = 1e-9

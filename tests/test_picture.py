@@ -20,7 +20,7 @@ from scadgen.emit.picture import (
 )
 from scadgen.emit.readme import readme
 from scadgen.errors import InputError
-from scadgen.frame.sameness import joint_name
+from scadgen.frame.classes import joint_name
 
 PAPER = (250, 250, 248)
 SMALL = (320, 240)

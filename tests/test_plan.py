@@ -27,13 +27,13 @@ from scadgen.joint.weave import BUILT_IN
 from scadgen.kit.build import build, laid_out
 from scadgen.kit.store import dumps as kit_text
 from scadgen.plan import order, search
+from scadgen.plan.as_json import dumps, plan_entry
 from scadgen.plan.order import make_plan
 from scadgen.plan.pegs import count_pegs
 from scadgen.plan.picture import step_pictures
 from scadgen.plan.proof import Prover
 from scadgen.plan.rows import Rows
 from scadgen.plan.standing import stand
-from scadgen.plan.told import dumps, plan_entry
 from scadgen.plan.touching import Touching
 from scadgen.plan.whole import whole_frame
 from scadgen.solid.pose import Pose
@@ -444,7 +444,7 @@ def test_the_command_writes_json_text_and_pictures(run, folder, tmp_path, monkey
 
 
 def test_a_step_that_is_not_proved_is_told_with_its_joint(run, folder, monkeypatch):
-    monkeypatch.setattr(search, "escape", lambda *_, **__: Attempts(1, 1, in_time=True))
+    monkeypatch.setattr(search, "escape", lambda *_, **__: Attempts(1, 1, 0.0, 0.0, finished=True))
     text = (folder / "kit.json").read_text(encoding="utf-8")
     document = json.loads(text)
     (way,) = [w for w in document["joints"][0]["ways"] if w["name"].startswith("the peg")]

@@ -41,6 +41,23 @@ def test_play_is_what_parts_with_a_gap_can_really_do(gap):
     assert measured(meshes, assembly.middles, steps, gap) == pytest.approx(1, abs=0.03)
 
 
+def test_the_solver_is_silent(capfd):
+    _, assembly = boxed()
+    loosest(assembly, np.ones((2, 3)))
+    assert capfd.readouterr() == ("", "")
+
+
+def test_one_tip_alone_goes_as_far_as_among_all():
+    """Each program starts from where the one before ended; that changes no answer."""
+    _, assembly = boxed()
+    tips = np.array([[0, 0, 0], [5.0, 2.0, 1.0]])
+    alone = [loosest(assembly, tips, [(1, n)]).travel for n in range(6)]
+    assert loosest(assembly, tips).travel == pytest.approx(max(alone), rel=1e-9)
+    assert loosest(assembly, tips, [(1, n) for n in range(5, -1, -1)]).travel == pytest.approx(
+        max(alone), rel=1e-9
+    )
+
+
 def test_what_slides_has_no_end():
     meshes = puzzles.peg_in_tube()
     assembly = make_assembly(meshes, find_contacts(meshes, 0.01), (0,))

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from kits import drawn
 
 from scadgen.errors import GeometryError, InputError
-from scadgen.frame.graph import make_frame
 from scadgen.joint.weave import any_joint
 from scadgen.kit.build import build
+from scadgen.plane.drawn import make_frame
 
 ROOT = Path(__file__).parents[1]
 
@@ -67,8 +67,8 @@ def test_a_joint_in_the_way_of_an_edge_is_refused_with_what_would_do():
 
 def test_a_frame_that_may_grow_grows_until_its_joints_keep_apart():
     kit = build(drawn("past", past_a_corner(20.0), resizable=True))
-    place = kit.frame.vertices[2]
-    assert place[1] - kit.frame.vertices[0, 1] > 10 * 3.5
+    place = kit.frame.plan[2]
+    assert place[1] - kit.frame.plan[0, 1] > 10 * 3.5
 
 
 def test_edges_too_near_each_other_are_refused_with_their_vertex():

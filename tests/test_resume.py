@@ -13,11 +13,11 @@ from kits import grid, kit
 
 from scadgen.check import proof
 from scadgen.errors import InvariantError
-from scadgen.kit import wanted
+from scadgen.kit import compute
 from scadgen.kit.build import build
 from scadgen.kit.store import dumps
 from scadgen.work.cache import Cache
-from scadgen.work.each import Means
+from scadgen.work.mapping import Execution
 
 #: Three edges at unequal angles, and a chain that hangs on one of them and bends more at each
 #: vertex: eight kinds of joints, so that the first is there long before the last.
@@ -77,17 +77,17 @@ def test_what_was_done_before_an_interrupt_is_kept_and_gone_on_with(tmp_path):
 
 
 def test_joints_that_are_kept_are_not_computed_again(tmp_path, monkeypatch):
-    request, means = grid("hexagonal", detail="draft"), Means(cache=Cache(tmp_path))
+    request, means = grid("hexagonal", detail="draft"), Execution(cache=Cache(tmp_path))
     first = dumps(build(request, means))
     assert first == dumps(kit("hexagonal"))
-    monkeypatch.setattr(wanted, "best_pieces", _refuse)
+    monkeypatch.setattr(compute, "best_pieces", _refuse)
     assert dumps(build(request, means)) == first
     with pytest.raises(InvariantError):
         build(grid("hexagonal", "loose", detail="draft"), means)
 
 
 def test_a_proof_that_is_kept_is_not_made_again(tmp_path, monkeypatch):
-    means = Means(cache=Cache(tmp_path))
+    means = Execution(cache=Cache(tmp_path))
     first = proof.proved(kit("hexagonal"), means)
     assert first.proved
     monkeypatch.setattr(proof, "proofs", _refuse)

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from scadgen.cli.main import main
 from scadgen.errors import InputError
-from scadgen.frame.catalogue import named
-from scadgen.frame.graph import make_frame
-from scadgen.frame.sameness import sameness
-from scadgen.frame.snapping import move_vertices
+from scadgen.frame.classes import classify
 from scadgen.kit.store import load
+from scadgen.plane.catalogue import named
+from scadgen.plane.drawn import make_frame
+from scadgen.plane.snapping import move_vertices
 from scadgen.readers.json_frame import dumps
 from scadgen.readers.read import read
 
@@ -30,7 +30,7 @@ FRAMES = {
 
 def kinds(frame):
     """Kinds of joints and of edges."""
-    same = sameness(frame)
+    same = classify(frame)
     return len(same.joints), len(same.edges)
 
 
@@ -39,12 +39,12 @@ def jittered(frame, most, seed):
     rng = np.random.default_rng(seed)
     far, turn = most * np.sqrt(rng.random(len(frame.vertices))), rng.random(len(frame.vertices))
     by = far[:, None] * np.column_stack([np.cos(2 * np.pi * turn), np.sin(2 * np.pi * turn)])
-    return make_frame(frame.name, frame.vertices + by, frame.edges)
+    return make_frame(frame.name, frame.plan + by, frame.edges)
 
 
 def moves(old, new):
     """How far each vertex of one frame is from the nearest of the other."""
-    return np.linalg.norm(old.vertices[:, None] - new.vertices, axis=2).min(axis=1)
+    return np.linalg.norm(old.plan[:, None] - new.plan, axis=2).min(axis=1)
 
 
 @settings(max_examples=30)
@@ -59,7 +59,7 @@ def test_a_jittered_frame_has_the_kinds_of_the_perfect_one_again(name, within, s
     assert found.after == kinds(found.frame) == kinds(perfect)
     assert sum(found.before) > sum(found.after)
     # All vertices stand, none of them further off than is allowed, and edges are as they were.
-    assert found.frame.vertices.shape == rough.vertices.shape
+    assert found.frame.plan.shape == rough.plan.shape
     assert moves(rough, found.frame).max() <= found.largest + 1e-6 <= within + 2e-6
     assert 0 < found.mean <= found.largest
     assert len(found.frame.edges) == len(rough.edges)

@@ -40,7 +40,7 @@ def box(result):
 def ends(result):
     """The edges of a frame, each by its two ends, whichever way round."""
     frame = result.frame
-    pairs = (frame.vertices[frame.edges].round(5) + 0.0).tolist()
+    pairs = (frame.plan[frame.edges].round(5) + 0.0).tolist()
     return sorted(tuple(sorted(map(tuple, pair))) for pair in pairs)
 
 
@@ -352,7 +352,7 @@ def test_transforms_of_style_sheets_and_of_attributes_are_the_same(svg, outer, i
     for kind, said in enumerate(('transform="{}"', 'style="transform:{}"')):
         out, in_ = (said.format(" ".join(move[kind] for move in moves)) for moves in (outer, inner))
         body = f'<g stroke="#000" {out}><path d="M3 4H23L9 60" fill="none" {in_}/></g>'
-        found.append(svg(body, page="").frame.vertices)
+        found.append(svg(body, page="").frame.plan)
     assert np.allclose(*found, rtol=1e-9, atol=1e-6)
 
 

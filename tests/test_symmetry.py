@@ -9,13 +9,13 @@ from hypothesis import strategies as st
 from kits import drawn, joint, regular
 
 from scadgen.errors import InputError
-from scadgen.frame.graph import make_frame
 from scadgen.joint.joint import DETAILS, make_joint
 from scadgen.joint.spokes import Spokes
 from scadgen.joint.surface import Surface, half_turn
 from scadgen.joint.symmetry import Symmetry, lopsided
 from scadgen.joint.weave import any_joint
 from scadgen.kit.build import build
+from scadgen.plane.drawn import make_frame
 
 TURN = 2 * math.pi
 

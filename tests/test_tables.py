@@ -206,7 +206,7 @@ def test_a_new_part_is_in_all_files_and_drawn(longer):
 def test_a_new_part_is_read_and_has_its_words_in_freecad(longer):
     code = (
         "import sys; sys.path.append('freecad_workbench')\n"
-        "from freecad.scadgen.affine import read_kit\n"
+        "from freecad.scadgen.kit_data import read_kit\n"
         "from freecad.scadgen.tables import PART_ROLES\n"
         "print(PART_ROLES[read_kit('made').parts['spacer'].role])"
     )

@@ -12,7 +12,7 @@ from scadgen.joint.weave import BUILT_IN, SHAPE, Weave
 from scadgen.tune.judge import Figures, Wish, figures
 from scadgen.tune.record import Record
 from scadgen.tune.run import rounds, start
-from scadgen.tune.search import Search
+from scadgen.tune.search import WeaveSearch
 
 PAIR = Wish(2, "fixed", 0.2)
 
@@ -30,16 +30,16 @@ def run(capsys):
 
 def test_the_built_in_weave_is_found_again_and_written(run, tmp_path):
     record, output = tmp_path / "record.jsonl", tmp_path / "weave.json"
-    words = ("--valence", 3, "--budget", 60, "--record", record, "-o", output, "--json")
-    search = Search(Wish(3, "fixed", 0.2), 1, Record(record, Wish(3, "fixed", 0.2), 1))
-    for _ in rounds(search, start(3), 3600):
+    words = ("--valence", 3, "--rounds", 1, "--record", record, "-o", output, "--json")
+    search = WeaveSearch(Wish(3, "fixed", 0.2), 1, Record(record, Wish(3, "fixed", 0.2), 1))
+    for _ in rounds(search, start(3), 1):
         if search.front:
             break
     (shape, found), *_ = search.front
     assert shape == BUILT_IN["3-fixed"].shape
     assert found.arm >= 0.2
     # Taken up again, what is on record needs no time.
-    code, out, _ = run(*words[:3], 4, *words[4:])
+    code, out, _ = run(*words)
     assert code == 0
     best = json.loads(out)[0]
     assert best["play"] <= found.play
@@ -50,8 +50,8 @@ def test_the_built_in_weave_is_found_again_and_written(run, tmp_path):
 
 def test_the_same_seed_looks_at_the_same_weaves_on_any_number_of_cores():
     def looked(jobs, seed=1):
-        search = Search(PAIR, seed, Record(None, PAIR, seed))
-        next(iter(rounds(search, [], 3600, jobs)))
+        search = WeaveSearch(PAIR, seed, Record(None, PAIR, seed))
+        next(iter(rounds(search, [], 1, jobs)))
         return search.looked
 
     one = looked(1)
@@ -116,7 +116,7 @@ def test_the_record_of_another_search_is_refused_and_kept(tmp_path):
         (("--key", "glue"), "key = 'glue': must be one of fixed, loose"),
         (("--arm", 1.5), "arm = 1.5 sides: must be from 0 to 1"),
         (("--arm", "nan"), "arm = nan sides: must be from 0 to 1"),
-        (("--budget", 0), "budget = 0 s: must be above 0"),
+        (("--rounds", 0), "rounds = 0: must be at least 1"),
         (("--jobs", 0), "jobs = 0: must be at least 1"),
         (("--record", "."), "name another file"),
         (("--output", "."), "it is not a file; name one that is"),

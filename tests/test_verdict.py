@@ -17,7 +17,7 @@ from scadgen.interlock.assembly import largest_part, make_assembly
 from scadgen.interlock.certificate import BALANCED, check_certificate
 from scadgen.interlock.contacts import Contacts, default_tolerance, find_contacts
 from scadgen.interlock.follow import moved
-from scadgen.interlock.keys import alone, keys
+from scadgen.interlock.keys import alone
 from scadgen.interlock.program import farthest
 from scadgen.interlock.verdict import Certificate, Motion, verdict
 from scadgen.joint.joint import DETAILS, make_joint
@@ -203,16 +203,10 @@ def test_strong_forces_do_not_hide_what_they_leave_over(strong):
     assert check_certificate(contacts, (0,), 2, opened) > 1
 
 
-def test_keys_come_out_first_and_the_rest_follows():
+def test_only_the_key_of_a_burr_can_move_alone():
     meshes = puzzles.six_piece_burr()
     contacts = find_contacts(meshes, 0.01)
     assert [isinstance(found, Motion) for found in alone(meshes, contacts)] == [True] + 5 * [False]
-    order = [part for part, _ in keys(meshes, contacts)]
-    assert order[0] == 0
-    assert len(order) == 5
-    assert keys(meshes, contacts, held=(0,)) == []
-    rods = puzzles.three_rods()
-    assert keys(rods, find_contacts(rods, 0.01)) == []
 
 
 def test_parts_that_nothing_holds_drift_off():

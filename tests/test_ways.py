@@ -3,7 +3,6 @@
 import json
 import math
 import re
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -13,12 +12,12 @@ from shapes import box, torus
 from stub_kit import stub_kit, with_joint
 
 import scadgen.joint.joint as joints
-from scadgen.check import ways
+from scadgen.check import disassembly
+from scadgen.check.disassembly import come_apart
 from scadgen.check.joint_contacts import whole_contacts
-from scadgen.check.known import known_ways
 from scadgen.check.locking import TIP
 from scadgen.check.proof import proved
-from scadgen.check.ways import come_apart
+from scadgen.check.stored_paths import known_ways
 from scadgen.errors import GeometryError, InputError, KitError
 from scadgen.frame.placement import Place, Placement
 from scadgen.interlock.assembly import make_assembly
@@ -46,7 +45,7 @@ STAGES = {
 @pytest.mark.parametrize("detail", ["draft", "standard"])
 def test_built_in_joints_come_apart_on_known_ways(frame, key, detail):
     made = kit(frame, key, detail=detail)
-    found = list(come_apart(made, made.joints[0], known_ways(made, made.joints[0]), seconds=1e-3))
+    found = list(come_apart(made, made.joints[0], known_ways(made, made.joints[0]), steps=0))
     assert all(result.good for result, _ in found)
     assert [result.check.split(" come")[0] for result, _ in found] == STAGES[frame]
 
@@ -57,9 +56,7 @@ def test_known_ways_hold_at_any_size_and_with_a_bore(side):
     made = build(grid("hexagonal", "loose", detail="draft", values=values))
     assert all(
         result.good
-        for result, _ in come_apart(
-            made, made.joints[0], known_ways(made, made.joints[0]), seconds=1e-3
-        )
+        for result, _ in come_apart(made, made.joints[0], known_ways(made, made.joints[0]), steps=0)
     )
 
 
@@ -73,7 +70,7 @@ def test_a_kit_carries_what_is_proved_of_it():
     # Read back, its own ways are enough.
     assert all(
         result.good
-        for result, _ in come_apart(again, again.joints[0], again.joints[0].ways, seconds=1e-3)
+        for result, _ in come_apart(again, again.joints[0], again.joints[0].ways, steps=0)
     )
 
 
@@ -105,8 +102,8 @@ def _linked_rings(monkeypatch):
     upright = ring[:, [0, 2, 1]] * (1, 1, -1) + (3, 0, 0)
     boxes = [box((x, 0, 0), (x + 1, 1, 1)) for x in (20, 22)]
     shapes = [(ring, faces), (upright, faces), *boxes]
-    monkeypatch.setattr(ways, "pieces", lambda *_: shapes)
-    monkeypatch.setattr(ways, "tubes", lambda *_: {})
+    monkeypatch.setattr(disassembly, "pieces", lambda *_: shapes)
+    monkeypatch.setattr(disassembly, "tubes", lambda *_: {})
 
 
 def of_four_connectors(known=(), **options):
@@ -121,19 +118,16 @@ def of_four_connectors(known=(), **options):
 def test_connectors_that_leave_as_one_are_not_apart():
     together = Path.through(np.array([np.zeros(6), [0, 0, 40, 0, 0, 0]], dtype=float), np.zeros(3))
     known = [Way("4 connectors come apart", (0, 1), together)]
-    found = of_four_connectors(known, seconds=4)
+    found = of_four_connectors(known, steps=50)
     assert [way.moving for _, way in found if way] == [(2,), (3,)]
     assert not found[-1][0].good
 
 
 @pytest.mark.usefixtures("_linked_rings")
-def test_a_stage_is_given_up_in_its_time_and_says_what_was_tried():
-    started = time.monotonic()
-    *_, (result, _) = of_four_connectors(seconds=4)
+def test_a_stage_is_given_up_after_its_steps_and_says_what_was_tried():
+    *_, (result, _) = of_four_connectors(steps=20)
     assert result.check == "2 connectors come apart"
-    assert re.fullmatch(r"none found in [1-9]\d* tries, time was up", result.figure)
-    # Two rings and three seeds at four seconds each would take 24.
-    assert time.monotonic() - started < 16
+    assert re.fullmatch(r"none found in [1-9]\d* tries, not finished", result.figure)
 
 
 def damaged(change):
@@ -225,7 +219,7 @@ def test_a_weave_that_locks_and_comes_apart_without_clearance():
         (second, whole[1:]),
         (whole[1], whole[2:]),
     ):
-        tries = (escape([moving], fixed, seed=seed, seconds=60) for seed in range(1, 6))
+        tries = (escape([moving], fixed, seed=seed) for seed in range(1, 6))
         assert any(isinstance(found, Path) for found in tries)
 
 

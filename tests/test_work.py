@@ -13,9 +13,9 @@ import pytest
 
 from scadgen.errors import GeometryError, InputError
 from scadgen.work.cache import Cache, Entry, default_folder
-from scadgen.work.crew import Crew
-from scadgen.work.each import Means, Task, each
+from scadgen.work.executor import Executor
 from scadgen.work.fingerprint import key_of
+from scadgen.work.mapping import Execution, Task, map_cached
 
 
 def square(item):
@@ -36,7 +36,7 @@ TASK = Task(
 
 
 def run(items, jobs=1, cache=None):
-    return dict(each(TASK, items, Means(Crew(jobs), cache)))
+    return dict(map_cached(TASK, items, Execution(Executor(jobs), cache)))
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
@@ -61,13 +61,13 @@ def test_of_several_refusals_the_first_in_order_is_told(jobs, tmp_path):
 
 def test_fewer_than_one_process_are_refused():
     with pytest.raises(InputError, match="jobs = 0: must be at least 1"):
-        Crew(0)
+        Executor(0)
 
 
 def test_what_is_kept_is_not_computed_again(tmp_path):
     first = run([1, 2, 3], cache=Cache(tmp_path))
     kept = Task(_refuse, TASK.key, TASK.packed, TASK.unpacked)
-    assert dict(each(kept, [3, 2, 1], Means(cache=Cache(tmp_path)))) == {
+    assert dict(map_cached(kept, [3, 2, 1], Execution(cache=Cache(tmp_path)))) == {
         0: first[2],
         1: first[1],
         2: first[0],
@@ -79,7 +79,7 @@ def _refuse(_):
 
 
 def test_who_stops_half_way_goes_on_where_it_was(tmp_path):
-    work = each(TASK, [1, 2, 3, 4], Means(cache=Cache(tmp_path)))
+    work = map_cached(TASK, [1, 2, 3, 4], Execution(cache=Cache(tmp_path)))
     assert [next(work)[0], next(work)[0]] == [0, 1]
     work.close()
     assert len(list(tmp_path.rglob("*.npz"))) == 2
@@ -252,12 +252,12 @@ def test_the_folder_is_the_one_named_or_the_users(monkeypatch, tmp_path):
 
 SPAWNS = """
 import signal
-from scadgen.work.crew import Crew
+from scadgen.work.executor import Executor
 
 def blocked(_):
     return signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ())
 
-print([result for _, result in Crew(2).outcomes(blocked, [1, 2, 3])], blocked(0))
+print([result for _, result in Executor(2).outcomes(blocked, [1, 2, 3])], blocked(0))
 """
 
 

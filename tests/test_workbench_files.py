@@ -21,7 +21,7 @@ sys.path.append(str(workbench().parent / "scripts"))
 import freecad_translations
 
 from freecad.scadgen import figures, mesh_files, plates
-from freecad.scadgen.affine import KitError
+from freecad.scadgen.kit_data import KitError
 
 ROOT = workbench().parent
 SOURCE = workbench() / "freecad" / "scadgen"

@@ -7,10 +7,14 @@ import freecadcmd
 import numpy as np
 import pytest
 import trimesh
+from click.testing import CliRunner
 from kits import kit, tee, tiled
 from workbench import linked, objects
 
+from scadgen.cli.main import cli
 from scadgen.frame.placement import bill
+from scadgen.kit.entries import part_entry
+from scadgen.kit.store import load
 from scadgen.solid.mesh import volume
 
 NAMES = {
@@ -168,6 +172,18 @@ def test_a_frame_of_any_cells_grows(session):
     ours = made.cells.laid(3, 2).placements
     assert_placed(placed, ours, made.values["edge_length"])
     assert pieces == len(ours)
+
+
+@pytest.mark.parametrize("name", ["cells", "drawn"])
+def test_a_document_says_all_that_makes_its_kit_again(session, name):
+    made = {"cells": tiled("V3.3.4.3.4"), "drawn": tee()}[name]
+    assert CliRunner().invoke(cli, session["other"][name]["again"]).exit_code == 0
+    again = load(session["folder"] / f"{name}_again" / "kit")
+    assert again.parts.keys() == made.parts.keys()
+    for part, ours in made.parts.items():
+        assert part_entry(again.parts[part]) == part_entry(ours)
+    counts = (3, 2) if made.cells else (0, 0)
+    assert (again.rows, again.columns, again.values["clearance"]) == (*counts, 0.25)
 
 
 def test_parts_of_any_frame_are_called_by_what_they_are_for(session):

@@ -38,9 +38,9 @@ def share_of_room(frame: Frame, side: float, shortest: float | None = None) -> f
         To what length its shortest edges are brought, in mm, if they are.
     """
     from scadgen.check.frame import rings
-    from scadgen.frame.sameness import sameness
+    from scadgen.frame.classes import classify
 
-    largest = rings(frame, sameness(frame)).largest_side or 0.0
+    largest = rings(frame, classify(frame)).largest_side or 0.0
     grown = 1.0 if shortest is None else shortest / float(frame.lengths.min())
     return largest * grown / side
 
@@ -68,7 +68,7 @@ def roomiest(
 
     if not any(note.startswith(CURVED) for note in finest.notes) or room(finest.frame) >= 1:
         return finest
-    limit = _COARSEST * float(np.ptp(finest.frame.vertices, axis=0).max())
+    limit = _COARSEST * float(np.ptp(finest.frame.plan, axis=0).max())
     short, good, found = within, 0.0, finest
     tries = 0
     while tries < _HALVINGS if good else short * _COARSER <= limit:

@@ -92,7 +92,7 @@ def _is_geometry(given: object) -> bool:
 
 def _of_frame(frame: Frame, how: Reading) -> Read:
     """A frame, which may have several parts if it has them."""
-    points = frame.vertices * (how.scale or 1.0)
+    points = frame.plan * (how.scale or 1.0)
     how = replace(how, components=True)
     return from_graph(frame.name, points, frame.edges, how, frame.numbering)
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from scadgen.api.command import remade
-from scadgen.api.part import Part
+from scadgen.api.part import PartHandle
 from scadgen.api.planned import KitPlan, planned
 from scadgen.api.values import as_given
 from scadgen.check.result import Result
@@ -24,15 +24,15 @@ from scadgen.kit.build import laid_out
 from scadgen.kit.ranges import span
 from scadgen.kit.store import load
 
-__all__ = ["Kit", "load_kit"]
+__all__ = ["KitHandle", "load_kit"]
 
 #: Checks of files, and of what OpenSCAD draws of them.
 _FILES, _DRAWINGS = "files", "drawings"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Kit:
-    """A kit: everything that is made for one frame.
+class KitHandle:
+    """A kit: everything that is made for one frame; to programs `scadgen.Kit`.
 
     `make_kit` makes it, `load_kit` reads it.
 
@@ -83,10 +83,12 @@ class Kit:
         return self.value.frame
 
     @property
-    def parts(self) -> Mapping[str, Part]:
+    def parts(self) -> Mapping[str, PartHandle]:
         """The parts by name, edge elements first."""
         read = () if self.folder is None else (_file(self.folder),)
-        found = {name: Part(part, self.value, read) for name, part in self.value.parts.items()}
+        found = {
+            name: PartHandle(part, self.value, read) for name, part in self.value.parts.items()
+        }
         return MappingProxyType(found)
 
     @property
@@ -206,7 +208,7 @@ class Kit:
         write_kit(self.value, place, read=self.read, force=force)
         return place
 
-    def with_cells(self, rows: int, columns: int) -> Kit:
+    def with_cells(self, rows: int, columns: int) -> KitHandle:
         """The same with other rows and columns; its parts and what is proved stay.
 
         Parameters
@@ -234,7 +236,7 @@ class Kit:
         return replace(self, value=replace(kit, command=command), folder=None)
 
 
-def load_kit(path: str | os.PathLike[str]) -> Kit:
+def load_kit(path: str | os.PathLike[str]) -> KitHandle:
     """Read a kit.
 
     Parameters
@@ -251,7 +253,7 @@ def load_kit(path: str | os.PathLike[str]) -> Kit:
     """
     place = Path(path)
     kit = load(place)
-    return Kit(kit, folder=place if place.is_dir() else place.parent)
+    return KitHandle(kit, folder=place if place.is_dir() else place.parent)
 
 
 def _file(folder: Path) -> Path:

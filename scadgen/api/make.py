@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from scadgen.api.command import command_line
 from scadgen.api.curves import told_of_curves
 from scadgen.api.drawing import drawing
-from scadgen.api.kit import Kit
+from scadgen.api.kit import KitHandle
 from scadgen.api.request import keys_note, kit_request, plain_name
 from scadgen.api.source import Source, is_file, load_frame, renamed
 from scadgen.api.values import as_given
@@ -65,7 +65,7 @@ def make_frame(
     Returns
     -------
     frame
-        Its ``vertices`` are in mm, ascending by y, then x.
+        Its ``plan`` has the vertices, ``(n, 2) float`` in mm, ascending by y, then x.
 
     Raises
     ------
@@ -76,7 +76,7 @@ def make_frame(
     --------
     >>> import scadgen
     >>> square = scadgen.make_frame("square", rows=1, columns=1, edge_length="8 cm")
-    >>> square.vertices.tolist()
+    >>> square.plan.tolist()
     [[0.0, 0.0], [80.0, 0.0], [0.0, 80.0], [80.0, 80.0]]
     >>> tee = scadgen.make_frame(([(0, 0), (90, 0), (0, 90)], [(0, 1), (0, 2)]))
     >>> tee.lengths.tolist()
@@ -107,7 +107,7 @@ def make_kit(  # noqa: PLR0913  one argument an option
     cache: bool = True,
     progress: Callable[[str], None] | None = None,
     **options: Any,  # noqa: ANN401  each has its own kind
-) -> Kit:
+) -> KitHandle:
     """Make a kit for a frame, as ``scadgen kit`` does; nothing is written.
 
     Parameters
@@ -185,7 +185,7 @@ def make_kit(  # noqa: PLR0913  one argument an option
     with told_of_curves(notes):
         made = _made(request, workers, progress or (lambda _: None), prove=prove, cache=cache)
     files = [Path(source)] if isinstance(source, str) and is_file(source) else []
-    return Kit(
+    return KitHandle(
         replace(made, material=material),
         (*notes, *keys_note(made)),
         read=(*files, *([Path(given["weave"])] if "weave" in given else [])),
@@ -217,10 +217,10 @@ def _made(
     from scadgen.kit.build import build
     from scadgen.plan.keyed import proved_kit
     from scadgen.work.cache import Cache, default_folder
-    from scadgen.work.crew import Crew
-    from scadgen.work.each import Means
+    from scadgen.work.executor import Executor
+    from scadgen.work.mapping import Execution
 
-    means = Means(Crew(jobs), Cache(default_folder()) if cache else None)
+    means = Execution(Executor(jobs), Cache(default_folder()) if cache else None)
 
     def computed(count: int, of: int) -> None:
         say(f"computing the joints, {count} of {of}")

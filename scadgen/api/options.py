@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Literal
 
-__all__ = ["DRAWINGS", "FAMILY", "GRAPH", "LINES", "OF_REPAIR", "READING", "Option", "option"]
+__all__ = [
+    "DRAWINGS",
+    "FAMILY",
+    "GRAPH",
+    "LINES",
+    "OF_REPAIR",
+    "READING",
+    "SNAP",
+    "Option",
+    "about_file",
+    "about_named",
+    "option",
+]
 
 #: Files that are drawings, by their endings.
 DRAWINGS = (".dxf", ".svg")
@@ -110,6 +122,33 @@ READING: Mapping[str, Option] = MappingProxyType(
 
 #: Options that some sources have only with ``repair``, if at all.
 OF_REPAIR = ("tolerance", "no_split")
+
+
+#: What ``snap`` does.
+SNAP = Option(
+    "length",
+    "MM",
+    "move vertices by up to this, so that lengths and angles that are nearly the same are the same",
+)
+
+
+def about_named(names: Iterable[str]) -> dict[str, dict[str, str | None]]:
+    """What each option of a named frame takes, and what it means; as JSON values."""
+    return {name: _about(FAMILY[name]) for name in names}
+
+
+def about_file(kind: str) -> dict[str, dict[str, str | None]]:
+    """The same of all options of a kind of file, by the end of its name."""
+    found = {
+        name: _about(one)
+        for name, one in READING.items()
+        if one.sources is None or kind in one.sources or name in OF_REPAIR
+    }
+    return {**found, "snap": _about(SNAP)}
+
+
+def _about(one: Option) -> dict[str, str | None]:
+    return {"form": one.metavar, "text": one.text.rstrip(".")}
 
 
 def option(name: str) -> str:

@@ -21,7 +21,7 @@ from scadgen.solid.mesh import volume
 if TYPE_CHECKING:
     import trimesh
 
-__all__ = ["Mesh", "Part"]
+__all__ = ["Mesh", "PartHandle"]
 
 
 class Mesh(NamedTuple):
@@ -54,8 +54,8 @@ class Mesh(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Part:
-    """A part of a kit; `Kit.parts` has all of them.
+class PartHandle:
+    """A part of a kit, to programs `scadgen.Part`; `parts` of a kit has all of them.
 
     Its vertices are linear in the kit's live parameters.  Lengths that are given to its methods
     are such parameters, in mm or as texts with a unit; the others are as in the kit.

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from scadgen.kit import model
+from scadgen.plan.as_json import dumps, plan_entry
 from scadgen.plan.folder import check_plan_folder, write_plan
 from scadgen.plan.model import Plan, Step
 from scadgen.plan.order import make_plan
 from scadgen.plan.picture import step_pictures
-from scadgen.plan.told import dumps, plan_entry
+from scadgen.plan.text import plan_text
 from scadgen.plan.whole import Whole, whole_frame
-from scadgen.plan.words import plan_text
 
 __all__ = ["KitPlan", "planned"]
 
@@ -25,7 +25,7 @@ _ORDERED, _HELD = 0.8, 0.95
 
 @dataclass(frozen=True, slots=True, eq=False)
 class KitPlan:
-    """In which order a frame goes together; `Kit.plan` makes it.
+    """In which order a frame goes together; `plan` of a kit makes it.
 
     Parameters
     ----------

@@ -49,8 +49,8 @@ def kit_request(
     InputError
         There is no such frame or weave, or an option does not go with it.
     """
-    from scadgen.frame.catalogue import ALIASES, NamedTiling
     from scadgen.kit.build import Request
+    from scadgen.plane.catalogue import ALIASES, NamedTiling
 
     own = {"rows", "columns", "key", "rim", "detail", "weave", *lengths}
     # A length of 0 is given, and wrong, though it equals False.

@@ -15,8 +15,8 @@ from scadgen.api.words import length, meant
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
-    from scadgen.frame.catalogue import Family
     from scadgen.frame.graph import Frame
+    from scadgen.plane.catalogue import Family
     from scadgen.readers.reading import Read, Reading
 
 __all__ = ["Source", "called", "family_of", "has_cells", "is_file", "load_frame", "renamed"]
@@ -32,7 +32,7 @@ def called(source: Source) -> str:
 
 def family_of(source: Source) -> Family | None:
     """The named frames that it is one of, if it is."""
-    from scadgen.frame.catalogue import ALIASES, NAMES
+    from scadgen.plane.catalogue import ALIASES, NAMES
 
     return NAMES.get(ALIASES.get(source, source)) if isinstance(source, str) else None
 
@@ -83,7 +83,7 @@ def load_frame(
     found = _load(source, given, room)
     if within is None:
         return found
-    from scadgen.frame.snapping import move_vertices
+    from scadgen.plane.snapping import move_vertices
     from scadgen.readers.reading import Read
 
     moved = move_vertices(found.frame, within, given.get("shortest", 0.0))
@@ -92,7 +92,7 @@ def load_frame(
 
 def _load(source: Source, given: dict[str, Any], room: Callable[[Frame], float] | None) -> Read:
     """Make or read a frame as it is."""
-    from scadgen.frame.catalogue import named
+    from scadgen.plane.catalogue import named
     from scadgen.readers.reading import Read
 
     family = family_of(source)
@@ -119,7 +119,7 @@ def renamed(frame: Frame, name: str) -> Frame:
 
 def _reader(source: Source) -> tuple[str, Callable[[Reading], Read]]:
     """What kind of source it is, and what reads it."""
-    from scadgen.frame.catalogue import ALIASES, NAMES
+    from scadgen.plane.catalogue import ALIASES, NAMES
     from scadgen.readers.read import READERS, read
 
     if isinstance(source, Drawing):

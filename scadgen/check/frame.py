@@ -10,11 +10,11 @@ from functools import cached_property
 import numpy as np
 
 from scadgen.errors import InputError
+from scadgen.frame.classes import Classes, joint_name
 from scadgen.frame.graph import Frame
 from scadgen.frame.joints import least_gap, least_ring_ratio, tube_start
 from scadgen.frame.kinds import choose_kinds
-from scadgen.frame.planarity import more
-from scadgen.frame.sameness import Sameness, joint_name
+from scadgen.frame.words import more
 from scadgen.joint.weave import LIMITS, any_joint
 from scadgen.kit.room import Room, reaches, room
 from scadgen.solid.affine import Floats
@@ -46,7 +46,7 @@ class Build:
     """
 
     frame: Frame
-    same: Sameness
+    same: Classes
     least: Floats
     rings: Floats
     refused: tuple[str | None, ...]
@@ -91,7 +91,7 @@ class Build:
         side
             Side of the tubes, in mm, if it is to be built.
         """
-        points = self.frame.vertices
+        points = self.frame.plan
         narrow = [self._narrowest(kind) for kind, reason in enumerate(self.refused) if reason]
         short = np.flatnonzero(self.missing(side) if side else [])
         middles = points[self.frame.edges[short]].mean(axis=1)
@@ -114,7 +114,7 @@ class Build:
 
 
 def rings(
-    frame: Frame, same: Sameness, ring_ratio: float | None = None, *, fixed: bool = False
+    frame: Frame, same: Classes, ring_ratio: float | None = None, *, fixed: bool = False
 ) -> Build:
     """Give each kind of joint a ring, as a kit of the frame does.
 

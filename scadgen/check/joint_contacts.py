@@ -11,9 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from scadgen.interlock.contacts import Contacts, Mesh
-from scadgen.joint.curve import SiteCurve
 from scadgen.joint.lattice import Lattice
 from scadgen.joint.place import beside_walls, place
+from scadgen.joint.site import Site, distances, slopes
 from scadgen.joint.walls import Feature
 from scadgen.solid.affine import Ints
 
@@ -27,7 +27,7 @@ _ON_WALL = 1e-7
 _STEEP = 1e-6
 
 
-def whole_contacts(lattice: Lattice, curves: Sequence[SiteCurve]) -> tuple[list[Mesh], Contacts]:
+def whole_contacts(lattice: Lattice, curves: Sequence[Site]) -> tuple[list[Mesh], Contacts]:
     """Contacts of a joint's whole connectors, where the lattice's edges cross the exact walls.
 
     Parameters
@@ -42,16 +42,16 @@ def whole_contacts(lattice: Lattice, curves: Sequence[SiteCurve]) -> tuple[list[
     contacts
         Between these; normals are those of the exact walls.
     """
-    far = beside_walls(lattice, curves)
-    keys, pairs = _crossed(far.argmin(axis=0))
-    points = place(lattice, curves, far, keys)
-    found = [curve.distance(points) for curve in curves]
-    away, slope = np.stack([d for d, _ in found]), np.stack([g for _, g in found])
-    row, (first, second) = np.arange(len(points)), pairs.T
-    normals = slope[first, row] - slope[second, row]
+    beside = beside_walls(lattice, curves)
+    keys, pairs = _crossed(beside.argmin(axis=0))
+    points = place(lattice, curves, beside, keys)
+    first, second = pairs.T
+    (near, toward), (far, away) = (slopes(curves, points, which) for which in (first, second))
+    normals = toward - away
     length = np.linalg.norm(normals, axis=1)
-    farther = np.maximum(away[first, row], away[second, row])
-    sound = np.flatnonzero((farther < away.min(axis=0) + _ON_WALL) & (length > _STEEP))
+    nearest = distances(curves, points, _ON_WALL).min(axis=0)
+    on_wall = np.maximum(near, far) < nearest + _ON_WALL
+    sound = np.flatnonzero(on_wall & (length > _STEEP))
     contacts = Contacts(points, normals / np.maximum(length, _STEEP)[:, None], first, second)
     contacts = contacts.some(sound)
     nothing = np.empty((0, 3), dtype=np.int64)

@@ -6,18 +6,18 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import partial
 
-from scadgen.check.known import known_ways
+from scadgen.check.disassembly import come_apart
 from scadgen.check.locking import joint_locks
 from scadgen.check.result import Result
-from scadgen.check.ways import come_apart
+from scadgen.check.stored_paths import known_ways
 from scadgen.errors import JointError
 from scadgen.kit.model import Joint, Kit, Way
 from scadgen.kit.ways import read_way, way_entry
 from scadgen.solid.affine import AffineSolid
 from scadgen.work.cache import Entry
-from scadgen.work.crew import ALONE
-from scadgen.work.each import Means, Task, each
+from scadgen.work.executor import ALONE
 from scadgen.work.fingerprint import key_of
+from scadgen.work.mapping import Execution, Task, map_cached
 
 __all__ = ["Claim", "Proof", "proofs", "prove", "proved"]
 
@@ -66,7 +66,7 @@ def proofs(kit: Kit, joint: Joint, say: Callable[[str], None] = lambda _: None) 
 
 
 def proved(
-    kit: Kit, means: Means | None = None, say: Callable[[str], None] = lambda _: None
+    kit: Kit, means: Execution | None = None, say: Callable[[str], None] = lambda _: None
 ) -> Kit:
     """The kit with all that is proved of its joints.
 
@@ -85,12 +85,12 @@ def proved(
         One does not lock, or no way is found on which it comes apart: the first of them.
     """
     claims = [Claim(_alone(kit, joint), joint) for joint in kit.joints]
-    means, task = means or Means(), _TASK
+    means, task = means or Execution(), _TASK
     if len(claims) == 1:
         # A lone item is done by this process, to which each step can be told.
         means, task = replace(means, crew=ALONE), replace(task, function=partial(prove, say=say))
     done: dict[int, Joint] = {}
-    for number, joint in each(task, claims, means):
+    for number, joint in map_cached(task, claims, means):
         done[number] = joint
         if len(claims) > 1:
             say(f"{joint.title}, {len(done)} of {len(claims)}")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from scadgen.api.curves import share_of_room
-from scadgen.api.options import option
+from scadgen.api.options import about_file, about_named, option
 from scadgen.api.source import has_cells, load_frame
 from scadgen.cli.console import force_option, status, table
 from scadgen.cli.frame_report import SIDES, report, show
@@ -20,8 +20,8 @@ from scadgen.errors import InputError
 
 if TYPE_CHECKING:
     from scadgen.emit.target import Target
+    from scadgen.frame.classes import Classes, Snapped
     from scadgen.frame.graph import Frame
-    from scadgen.frame.sameness import Sameness, Snapped
 
 __all__ = ["frame"]
 
@@ -33,7 +33,12 @@ _FILE = click.Path(path_type=Path)
 
 @click.command(short_help="Look at a frame, named or drawn.")
 @click.argument("name", metavar="FRAME", required=False)
-@click.option("--list", "listing", is_flag=True, help="List the named frames, with their options.")
+@click.option(
+    "--list",
+    "listing",
+    is_flag=True,
+    help="List the named frames, with their options; as JSON also those of files.",
+)
 @click.option("--side", type=LENGTH, metavar="MM", help="Say whether it can be built at this side.")
 @click.option(
     "--ring-ratio",
@@ -95,9 +100,9 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     _check_range("side", side, "mm", SIDES)
     from scadgen.check.frame import rings
     from scadgen.emit.frame_picture import frame_svg
-    from scadgen.frame.catalogue import ALIASES, NAMES
-    from scadgen.frame.sameness import Snapped
+    from scadgen.frame.classes import Snapped
     from scadgen.joint.weave import LIMITS, built_in
+    from scadgen.plane.catalogue import ALIASES, NAMES
     from scadgen.readers.json_frame import dumps
 
     _check_range("ring-ratio", ring_ratio, "sides", LIMITS["ring_ratio"])
@@ -125,13 +130,13 @@ def frame(  # noqa: PLR0913, PLR0917  one argument an option
     return int(side is not None and bool(said["in_the_way"]))
 
 
-def _kinds(frame: Frame, angle: float | None, length: float | None) -> Sameness | Snapped:
+def _kinds(frame: Frame, angle: float | None, length: float | None) -> Classes | Snapped:
     """What is the same; snapped if an angle, in degrees, or a length is given for that."""
     import inspect
 
-    from scadgen.frame.sameness import sameness, snap
+    from scadgen.frame.classes import classify, snap
 
-    known = inspect.signature(sameness).parameters
+    known = inspect.signature(classify).parameters
     most = float(frame.ends.gap.min()) / 4
     if angle is not None and not 0 < angle < math.degrees(most):
         msg = (
@@ -145,7 +150,7 @@ def _kinds(frame: Frame, angle: float | None, length: float | None) -> Sameness 
     turn = None if angle is None else math.radians(angle)
     within = known["length_tolerance"].default if length is None else length
     if angle is None and length is None:
-        return sameness(frame, turn, within)
+        return classify(frame, turn, within)
     return snap(frame, turn, within)
 
 
@@ -174,15 +179,18 @@ def _targets(
 
 def _list(*, as_json: bool) -> None:
     """Print the named frames; those with the same options together."""
-    from scadgen.frame.catalogue import ALIASES, NAMES
+    from scadgen.plane.catalogue import ALIASES, NAMES
+    from scadgen.readers.read import READERS
 
     others = {n: [alias for alias, of in ALIASES.items() if of == n] for n in NAMES}
     if as_json:
-        rows = [
+        named = [
             {"name": n, "other_names": others[n], "text": f.text, "options": f.defaults}
+            | {"about": about_named(f.options)}
             for n, f in NAMES.items()
         ]
-        click.echo(json.dumps(rows, indent=1))
+        files = [{"ending": ending, "about": about_file(ending)} for ending in READERS]
+        click.echo(json.dumps({"named": named, "files": files}, indent=1))
         return
     groups: dict[str, list[tuple[str, str, str]]] = {}
     for name, family in NAMES.items():

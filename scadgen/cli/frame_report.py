@@ -12,7 +12,7 @@ from scadgen.cli.console import counted, table
 
 if TYPE_CHECKING:
     from scadgen.check.frame import Build
-    from scadgen.frame.sameness import Snapped
+    from scadgen.frame.classes import Snapped
 
 __all__ = ["SIDES", "report", "show"]
 
@@ -82,7 +82,7 @@ def _snap(snapped: Snapped) -> dict[str, Any]:
 def _joints(build: Build, side: float | None) -> list[dict[str, Any]]:
     import numpy as np
 
-    from scadgen.frame.sameness import joint_name
+    from scadgen.frame.classes import joint_name
 
     kinds = zip(build.same.joints, build.least, build.rings, strict=True)
     return [
@@ -104,7 +104,7 @@ def _joints(build: Build, side: float | None) -> list[dict[str, Any]]:
 
 
 def _edges(build: Build, side: float | None) -> list[dict[str, Any]]:
-    from scadgen.frame.sameness import joint_name
+    from scadgen.frame.classes import joint_name
 
     missing = build.missing(side or 0.0)
     return [

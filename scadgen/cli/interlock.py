@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import json
 import math
 from pathlib import Path
@@ -10,19 +9,23 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from scadgen.api.words import meant
-from scadgen.cli.console import force_option, status, table
+from scadgen.cli.console import force_option, status
 from scadgen.cli.length import LENGTH
 from scadgen.errors import InputError, InvariantError
 
 if TYPE_CHECKING:
     from scadgen.emit.target import Target
     from scadgen.interlock.contacts import Contacts, Mesh
+    from scadgen.interlock.gaps import Gap
+    from scadgen.interlock.taken import TakenApart
     from scadgen.interlock.verdict import Certificate, Motion
 
 __all__ = ["interlock"]
 
 _FILE = click.Path(path_type=Path)
+
+#: Share of the tolerance up to which a gap is none.
+_SHUT = 1e-3
 
 
 @click.command(short_help="Say whether any set of parts locks.")
@@ -31,7 +34,8 @@ _FILE = click.Path(path_type=Path)
     "--hold",
     multiple=True,
     metavar="NAMES",
-    help="Parts that are held fast, with commas between; adds up.  [default: the largest]",
+    help="Parts, files or patterns (lid.*) that are held fast, with commas between; adds up.  "
+    "[default: the largest]",
 )
 @click.option(
     "--tolerance",
@@ -39,14 +43,29 @@ _FILE = click.Path(path_type=Path)
     metavar="MM",
     help="Distance up to which faces touch.  [default: 1 % of the median part's diagonal]",
 )
+@click.option(
+    "--interference",
+    type=LENGTH,
+    metavar="MM",
+    help="How deep parts may be in each other and count as touching.  "
+    "[default: 1 % of the tolerance]",
+)
+@click.option(
+    "--apart",
+    "taking_apart",
+    is_flag=True,
+    help="Take the parts apart, with a search for ways; the exit status answers that.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the answer as JSON.")
-@click.option("--gif", type=_FILE, help="Film the motion into this file.")
+@click.option("--gif", type=_FILE, help="Film the motion, or with --apart the taking apart.")
 @click.option("--png", type=_FILE, help="Draw the motion, or the parts at rest, into this file.")
 @force_option
-def interlock(
+def interlock(  # noqa: PLR0913, PLR0917  one argument an option
     files: tuple[Path, ...],
     hold: tuple[str, ...],
     tolerance: float | None,
+    interference: float | None,
+    taking_apart: bool,  # noqa: FBT001  click passes flags so
     as_json: bool,  # noqa: FBT001  click passes flags so
     gif: Path | None,
     png: Path | None,
@@ -57,55 +76,79 @@ def interlock(
     A file with several bodies is several parts: name.1, name.2, or as its objects are named.
     To first order, from the faces that touch; locked means proven, with a certificate that is
     checked again.  Round faces that only their facets lock count as round if the parts as
-    they are can turn ten tolerances without overlap.
+    they are can turn ten tolerances without overlap.  Keys are parts that were taken out, in
+    that order, straight; with --apart on any way that is found.
 
-    Exit status 0 if they are locked, 1 if something can move.
+    With --apart the answer is one of these.  TakenApart: all parts were taken out, alone or in
+    groups.  Captive: they move, but no way out was found.  Locked.  Not settled: the search
+    did not end, or several parts may have to move in turns.
+
+    Exit status 0 if they are locked, 1 if something can move; with --apart 0 if they come
+    apart, 1 if not.
 
     \b
     scadgen interlock burr/*.stl --hold piece1
+    scadgen interlock burr/*.stl --apart --gif apart.gif
     scadgen interlock puzzle.3mf --tolerance 0.4 --gif motion.gif
     """  # noqa: D301  click wants the character
-    from scadgen.interlock.keys import keys
+    from scadgen.cli.assembly import (
+        checked_interference,
+        checked_tolerance,
+        held_parts,
+        touching,
+    )
+    from scadgen.cli.interlock_words import apart_as_json, motion_as_json, print_report
+    from scadgen.interlock.apart import BUDGET, take_apart
     from scadgen.interlock.verdict import Motion
     from scadgen.tools.read_mesh import read_parts
 
     pictures = _pictures(files, gif, png, force=force)
     with status("reading") as say:
         parts = read_parts(files)
-        names, meshes = list(parts), list(parts.values())
-        held = _held(names, meshes, hold)
-        _check_overlaps(names, meshes)
+        names, meshes = [part.name for part in parts], [part.mesh for part in parts]
+        held = held_parts(parts, hold)
+        near = checked_tolerance(names, meshes, tolerance)
+        deep = checked_interference(names, meshes, interference, near)
         say("looking for contacts")
-        near, contacts = _touching(meshes, tolerance)
+        contacts = touching(meshes, near)
         say("looking for a motion")
         answer, facts = _judge(meshes, contacts, held)
         say("looking for parts that move alone")
         motion = answer if isinstance(answer, Motion) else None
         motion, motions = _alone(meshes, contacts, near, held, motion)
-        order = keys(meshes, contacts, held)
-        if not (order or hold):
-            # The largest part may itself be the key; nobody asked to hold it.
-            order = keys(meshes, contacts)
+        gaps = [] if isinstance(answer, Motion) else _gaps(meshes, contacts, answer, near)
         say("following the motion")
         until, way = _followed(names, meshes, motion)
+        apart = take_apart(
+            meshes,
+            contacts,
+            near,
+            held if hold else (),
+            steps=BUDGET if taking_apart else 0,
+            interference=deep,
+            say=say,
+        )
     report = {
         "locked": motion is None,
         "held": [names[part] for part in held],
         "tolerance": near,
         "contacts": len(contacts),
         "certificate": facts if motion is None else None,
-        "motion": {**_as_json(names, motion), "way": way} if motion else None,
+        "gaps": [{"parts": [names[gap.first], names[gap.second]], **_widths(gap)} for gap in gaps],
+        "motion": {**motion_as_json(names, motion), "way": way} if motion else None,
         "alone": {
-            n: _as_json(names, m) if m else None for n, m in zip(names, motions, strict=True)
+            n: motion_as_json(names, m) if m else None for n, m in zip(names, motions, strict=True)
         },
-        "keys": [names[part] for part, _ in order],
+        "keys": ["+".join(names[n] for n in removal.parts) for removal in apart.removals],
+        "apart": apart_as_json(names, apart) if taking_apart else None,
     }
     if as_json:
         click.echo(json.dumps(report, indent=1))
     else:
-        _say(names, meshes, report, motion, motions, defaulted=not hold)
-    _draw(meshes, motion, until, pictures)
-    return 0 if motion is None else 1
+        print_report(names, meshes, report, motion, motions, defaulted=not hold)
+    _draw(meshes, motion, until, pictures, apart if taking_apart else None)
+    good = apart.answer == "apart" if taking_apart else motion is None
+    return 0 if good else 1
 
 
 def _pictures(
@@ -125,58 +168,16 @@ def _pictures(
     return pictures
 
 
-def _held(names: list[str], meshes: list[Mesh], hold: tuple[str, ...]) -> list[int]:
-    """Numbers of the parts to hold."""
-    from scadgen.interlock.assembly import largest_part
+def _gaps(meshes: list[Mesh], contacts: Contacts, answer: Certificate, near: float) -> list[Gap]:
+    """The gaps that count as closed in a lock."""
+    from scadgen.interlock.gaps import closed_gaps
 
-    if len(names) < 2:
-        msg = f"{len(names)} part: must be at least two; name more files"
-        raise InputError(msg)
-    if not hold:
-        return [largest_part(meshes)]
-    # A name may have commas of its own.
-    lists = ([text] if text in names else text.split(",") for text in hold)
-    chosen = [name.strip() for name in itertools.chain(*lists)]
-    for name in chosen:
-        if name not in names:
-            msg = f"--hold {name}: must be one of {', '.join(names)}{meant(name, names)}"
-            raise InputError(msg)
-    if len(set(chosen)) == len(names):
-        msg = f"--hold {','.join(hold)}: holds all parts; leave at least one free"
-        raise InputError(msg)
-    return sorted(names.index(name) for name in set(chosen))
+    found = closed_gaps(meshes, contacts.some(answer.rows), near)
+    return [gap for gap in found if gap.largest > _SHUT * near]
 
 
-def _check_overlaps(names: list[str], meshes: list[Mesh]) -> None:
-    from scadgen.interlock.overlap import overlaps
-
-    if found := overlaps(meshes):
-        a, b, shared = max(found, key=lambda pair: pair[2])
-        others = f", {len(found)} pairs in all" if len(found) > 1 else ""
-        msg = (
-            f"{names[a]} and {names[b]} overlap by {shared:.6g} mm3{others}: "
-            "parts must be placed as assembled"
-        )
-        raise InputError(msg)
-
-
-def _touching(meshes: list[Mesh], tolerance: float | None) -> tuple[float, Contacts]:
-    """The tolerance and the contacts."""
-    from scadgen.interlock.contacts import default_tolerance, find_contacts
-
-    near = default_tolerance(meshes) if tolerance is None else tolerance
-    size = max(float((points.max(axis=0) - points.min(axis=0)).max()) for points, _ in meshes)
-    if near > size:
-        msg = f"--tolerance {near:.4g}: must be at most the largest part's size, {size:.4g} mm"
-        raise InputError(msg)
-    contacts = find_contacts(meshes, near)
-    if not len(contacts):
-        msg = (
-            f"no two parts touch within {near:.4g} mm: "
-            "place them as assembled, or give a larger --tolerance"
-        )
-        raise InputError(msg)
-    return near, contacts
+def _widths(gap: Gap) -> dict[str, float]:
+    return {"smallest": gap.smallest, "largest": gap.largest}
 
 
 def _judge(
@@ -243,104 +244,22 @@ def _followed(
     }
 
 
-def _say(
-    names: list[str],
-    meshes: list[Mesh],
-    report: dict[str, Any],
-    motion: Motion | None,
-    motions: list[Motion | None],
-    *,
-    defaulted: bool,
-) -> None:
-    """Print the answer for a person."""
-    held = ", ".join(report["held"]) + (", the largest part" if defaulted else "")
-    click.echo("locked" if motion is None else "movable")
-    click.echo(f"  held         {held}")
-    click.echo(f"  contacts     {report['contacts']} within {report['tolerance']:.4g} mm")
-    if facts := report["certificate"]:
-        click.echo(
-            f"  certificate  {facts['contacts']} contacts push, rank {facts['rank']}, largest "
-            f"force {facts['largest_force']:.4g}, residual {facts['residual']:.1e}"
-        )
-    if motion:
-        slides = ", contacts only slide" if motion.slides else ""
-        click.echo(f"  motion       {', '.join(names[n] for n in motion.parts)}{slides}")
-        if way := report["motion"]["way"]:
-            click.echo(f"  way          {_way(motion, way)}")
-    click.echo(f"  keys         {', '.join(report['keys']) or 'none: no part comes free alone'}")
-    click.echo("")
-    rows: list[tuple[str, ...]] = [
-        (name, "held" if name in report["held"] else "", _how(meshes, m, n) if m else "locked")
-        for n, (name, m) in enumerate(zip(names, motions, strict=True))
-    ]
-    if motion and len(motion.parts) > 1:
-        together = {part: _how(meshes, motion, part) for part in motion.parts}
-        rows = [(*row, together.get(n, "")) for n, row in enumerate(rows)]
-        table(("part", "", "alone", "in the motion"), rows)
-    else:
-        table(("part", "", "alone"), rows)
-
-
-def _way(motion: Motion, way: dict[str, Any]) -> str:
-    """Say how far a motion goes."""
-    turns = motion.rotations.any() and way["mm"] < 1e-3
-    far = f"turns {way['degrees']:.3g} degrees" if turns else f"moves {way['mm']:.3g} mm"
-    return f"{far}, then touches {way['touches']}" if way["touches"] else f"{far}, touching nothing"
-
-
-def _how(meshes: list[Mesh], motion: Motion, part: int) -> str:
-    """Say how one part of a motion moves."""
-    import numpy as np
-
-    n = motion.parts.index(part)
-    t, w = motion.translations[n], motion.rotations[n]
-    points = meshes[part][0]
-    middle = (points.min(axis=0) + points.max(axis=0)) / 2
-    half = np.linalg.norm(np.ptp(points, axis=0)) / 2
-    speed, spin = float(np.linalg.norm(t)), float(np.linalg.norm(w))
-    if spin * half < 1e-3 * speed:
-        return f"moves along {_direction(t / speed)}"
-    along = abs(float(t @ w)) / spin
-    where = middle + np.cross(w, t) / spin**2
-    text = f"turns about {_direction(w / spin)} through {_vector(where)}"
-    text += " and moves along it" if along > 1e-3 * spin * half else ""
-    return text + (" (round faces)" if motion.rounded else "")
-
-
-def _direction(unit: Any) -> str:  # noqa: ANN401  numpy is imported late
-    """A unit vector, by its axis if it is along one."""
-    axis = int(abs(unit).argmax())
-    if abs(unit[axis]) > 1 - 1e-6:
-        return f"{'+' if unit[axis] > 0 else '-'}{'xyz'[axis]}"
-    return _vector(unit)
-
-
-def _vector(values: Any) -> str:  # noqa: ANN401  numpy is imported late
-    return "(" + ", ".join(f"{x:.3g}" for x in (values.round(4) + 0.0).tolist()) + ")"
-
-
-def _as_json(names: list[str], motion: Motion) -> dict[str, Any]:
-    steps = zip(motion.parts, motion.translations, motion.rotations, strict=True)
-    return {
-        "slides": motion.slides,
-        "round_faces": motion.rounded,
-        "parts": [
-            {"part": names[n], "translation": t.tolist(), "rotation": w.tolist()}
-            for n, t, w in steps
-        ],
-    }
-
-
 def _draw(
-    meshes: list[Mesh], motion: Motion | None, until: float, pictures: dict[str, Target]
+    meshes: list[Mesh],
+    motion: Motion | None,
+    until: float,
+    pictures: dict[str, Target],
+    apart: TakenApart | None,
 ) -> None:
     """Write the pictures that were asked for."""
-    from scadgen.emit.motion import motion_gif, motion_png
+    from scadgen.emit.motion import apart_gif, motion_gif, motion_png
 
     if png := pictures.get("png"):
         png.put(motion_png(meshes, motion, until=until), "png")
     gif = pictures.get("gif")
-    if gif and motion:
+    if gif and apart and apart.removals:
+        gif.put(apart_gif(meshes, apart.removals), "gif")
+    elif gif and motion:
         gif.put(motion_gif(meshes, motion, until=until), "gif")
     elif gif:
         click.echo(f"scadgen: nothing moves, {gif.path} is not written", err=True)

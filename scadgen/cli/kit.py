@@ -22,7 +22,7 @@ from scadgen.kit.live import LIVE, PARAMETERS
 if TYPE_CHECKING:
     from scadgen.kit.build import Request
     from scadgen.kit.model import Kit
-    from scadgen.work.each import Means
+    from scadgen.work.mapping import Execution
 
 __all__ = ["kit"]
 
@@ -141,8 +141,8 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
     from scadgen.kit.bill import check_material
     from scadgen.kit.store import summary
     from scadgen.work.cache import Cache, default_folder
-    from scadgen.work.crew import hired
-    from scadgen.work.each import Means
+    from scadgen.work.executor import open_executor
+    from scadgen.work.mapping import Execution
 
     material = check_material(material)
     request, notes = kit_request(frame, options, PARAMETERS, _command())
@@ -152,10 +152,10 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
     told: list[str] = []
     with (
         told_of_curves(notes),
-        hired(jobs, dask, told.append) as crew,
+        open_executor(jobs, dask, told.append) as crew,
         progress(f"making {folder}") as bar,
     ):
-        means = Means(crew, None if no_cache else Cache(default_folder()))
+        means = Execution(crew, None if no_cache else Cache(default_folder()))
         made, done = _made(request, means, bar, unchecked=unchecked)
         write = bar.steps(done, 1.0, _FILES)
         made = replace(made, material=material)
@@ -174,7 +174,7 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
         _say(made, folder, notes)
 
 
-def _made(request: Request, means: Means, bar: Bar, *, unchecked: bool) -> tuple[Kit, float]:
+def _made(request: Request, means: Execution, bar: Bar, *, unchecked: bool) -> tuple[Kit, float]:
     """The kit, proved unless that is not wanted, and the share of the time that is gone."""
     from scadgen.kit.build import build
     from scadgen.plan.keyed import proved_kit

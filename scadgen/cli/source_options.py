@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from scadgen.api.options import FAMILY, READING, Option, option
+from scadgen.api.options import FAMILY, READING, SNAP, Option, option
 from scadgen.cli.length import LENGTH
 
 __all__ = ["source_options"]
@@ -32,8 +32,7 @@ def source_options(
             "--snap",
             type=LENGTH,
             metavar="MM",
-            help="Move vertices by up to this, so that lengths and angles that are nearly the same "
-            "are the same.",
+            help=f"{SNAP.text[0].upper()}{SNAP.text[1:]}.",
         )(function)
         for name, one in reversed([*READING.items()]):
             function = _added(function, name, one, f"Files: {one.text}")

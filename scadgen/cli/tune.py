@@ -12,14 +12,14 @@ from scadgen.cli.console import force_option, progress, table
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:
-    from scadgen.tune.search import Search
+    from scadgen.tune.search import WeaveSearch
 
 __all__ = ["tune"]
 
 _FILE = click.Path(path_type=Path)
 
 
-@click.command(short_help="Search a better weave.")
+@click.command(short_help="WeaveSearch a better weave.")
 @click.option("--valence", default=3, show_default=True, metavar="N", help="Edges at the joint.")
 @click.option("--key", default="fixed", show_default=True, metavar="fixed|loose", help="Key style.")
 @click.option(
@@ -30,11 +30,12 @@ _FILE = click.Path(path_type=Path)
     help="Thinnest section that the connectors' arms may have.",
 )
 @click.option(
-    "--budget",
-    default=600.0,
+    "--rounds",
+    "count",
+    default=24,
     show_default=True,
-    metavar="S",
-    help="Seconds to search.",
+    metavar="N",
+    help="Rounds of the search: each looks at 32 weaves and proves the best two.",
 )
 @click.option("--seed", default=1, show_default=True, help="The same finds the same.")
 @click.option("--jobs", type=int, metavar="N", help="Processes.  [default: one a core]")
@@ -53,7 +54,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     valence: int,
     key: str,
     arm: float,
-    budget: float,
+    count: int,
     seed: int,
     jobs: int | None,
     record: Path | None,
@@ -61,7 +62,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     force: bool,  # noqa: FBT001
     as_json: bool,  # noqa: FBT001  click passes flags so
 ) -> int:
-    """Search the weaves of a regular joint for the least play.
+    """WeaveSearch the weaves of a regular joint for the least play.
 
     Prints those that no other beats both in play and in thickness of the arms.  Each of them
     is proved as scadgen kit proves a joint: it locks, also at twice the samples, comes apart
@@ -70,7 +71,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     Exit status 0 if one was found, 1 if none.
 
     \b
-    scadgen tune --valence 5 --budget 1200 --record five.jsonl -o five.json
+    scadgen tune --valence 5 --rounds 48 --record five.jsonl -o five.json
     scadgen kit hexagonal --weave tight.json
     """  # noqa: D301  click wants the character
     from scadgen.emit.target import target
@@ -78,23 +79,23 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     from scadgen.tune.judge import Wish
     from scadgen.tune.record import Record
     from scadgen.tune.run import rounds, start
-    from scadgen.tune.search import Search
+    from scadgen.tune.search import WeaveSearch
 
     if jobs is not None and jobs < 1:
         msg = f"jobs = {jobs}: must be at least 1"
         raise InputError(msg)
-    if not budget > 0:
-        msg = f"budget = {budget:g} s: must be above 0"
+    if count < 1:
+        msg = f"rounds = {count}: must be at least 1"
         raise InputError(msg)
     if seed < 0:
         msg = f"seed = {seed}: must be at least 0"
         raise InputError(msg)
     place = target(output, [record] if record else [], force=force) if output else None
     wish = Wish(valence, key, arm)
-    search = Search(wish, seed, Record(record, wish, seed))
+    search = WeaveSearch(wish, seed, Record(record, wish, seed))
     with progress("tuning") as bar:
-        for gone in rounds(search, start(valence), budget, jobs):
-            bar.reach(gone / budget)
+        for gone in rounds(search, start(valence), count, jobs):
+            bar.reach(gone)
             bar.say(_state(search))
     found = [(Weave(*shape, name=f"tuned-{valence}-{key}"), f) for shape, f in search.front]
     if place and found:
@@ -110,7 +111,7 @@ def tune(  # noqa: PLR0913, PLR0917  one argument an option
     return 0 if found else 1
 
 
-def _state(search: Search) -> str:
+def _state(search: WeaveSearch) -> str:
     """How far a search has come, in a line."""
     lock = sum(not found.refused for found in search.looked.values())
     best = f", play {search.front[0][1].play:.1f}" if search.front else ""

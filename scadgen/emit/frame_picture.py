@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from scadgen.frame.classes import Classes, joint_name
 from scadgen.frame.graph import Frame
-from scadgen.frame.sameness import Sameness, joint_name
 from scadgen.solid.affine import Floats
 
 __all__ = ["frame_svg"]
@@ -42,7 +42,7 @@ _PALE, _STRONG = ((0.62, 0.55, 0.7), 0.5), ((0.42, 0.3, 0.52), 0.75)
 
 
 def frame_svg(
-    frame: Frame, same: Sameness, repaired: Floats = _NOWHERE, in_the_way: Floats = _NOWHERE
+    frame: Frame, same: Classes, repaired: Floats = _NOWHERE, in_the_way: Floats = _NOWHERE
 ) -> str:
     """Draw a frame, y up, with a legend where there are few kinds.
 
@@ -57,7 +57,7 @@ def frame_svg(
         being built, in mm.  They have a ring around them.
     """
     to_page, height = _page(frame)
-    points = to_page(frame.vertices)
+    points = to_page(frame.plan)
     median = float(np.median(np.linalg.norm(np.diff(points[frame.edges], axis=1), axis=2)))
     tube = float(np.clip(_TUBE * median, *_TUBES))
     joint = float(np.clip(_JOINT * median, *_JOINTS))
@@ -116,7 +116,7 @@ def _marks(points: Floats, what: str, colour: str, radius: float) -> Iterator[st
         yield "</g>"
 
 
-def _edges(points: Floats, frame: Frame, same: Sameness) -> Iterator[str]:
+def _edges(points: Floats, frame: Frame, same: Classes) -> Iterator[str]:
     """A group of lines for each kind of edge."""
     for kind, text in enumerate(_edge_texts(same)):
         ends = points[frame.edges[same.edges[kind].edges]].reshape(-1, 4)
@@ -124,7 +124,7 @@ def _edges(points: Floats, frame: Frame, same: Sameness) -> Iterator[str]:
         yield f'<path stroke="{_colour(kind, _PALE)}" d="{path}"><title>edge {text}</title></path>'
 
 
-def _joints(points: Floats, frame: Frame, same: Sameness, radius: float) -> Iterator[str]:
+def _joints(points: Floats, frame: Frame, same: Classes, radius: float) -> Iterator[str]:
     """A group of discs for each kind of joint; each says what its vertex is called."""
     for kind, text in enumerate(_joint_texts(same)):
         yield f'<g fill="{_colour(kind, _STRONG)}"><title>joint {text}</title>'
@@ -136,14 +136,14 @@ def _joints(points: Floats, frame: Frame, same: Sameness, radius: float) -> Iter
         yield "</g>"
 
 
-def _joint_texts(same: Sameness) -> list[str]:
+def _joint_texts(same: Classes) -> list[str]:
     return [
         f"{joint_name(kind)}: {len(joint.vertices)} with {_edges_of(len(joint.directions))}"
         for kind, joint in enumerate(same.joints)
     ]
 
 
-def _edge_texts(same: Sameness) -> list[str]:
+def _edge_texts(same: Classes) -> list[str]:
     return [
         f"{kind}: {len(edge.edges)} of {edge.length:.4g} mm"
         for kind, edge in enumerate(same.edges, 1)

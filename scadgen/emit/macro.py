@@ -20,8 +20,8 @@ __all__ = ["macro", "workbench"]
 
 #: The modules that the macro is put together from, each after those it imports.
 _MODULES = (
-    *("faces", "cells", "tables", "sense", "affine"),
-    *("brep", "shape", "names", "refusal", "macro"),
+    *("faces", "affine", "cells", "tables", "sense", "kit_data", "brep", "shape"),
+    *("names", "sheet", "refusal", "macro"),
 )
 
 #: What modules import from each other, and the macro has in one place.

@@ -32,7 +32,7 @@ import numpy as np
 
 from scadgen.errors import InputError
 from scadgen.solid.affine import Floats, Ints
-from scadgen.work.hold import interrupts_held
+from scadgen.work.deferred import interrupts_held
 
 __all__ = ["FORMATS", "check_writable", "mesh_bytes", "write_atomic"]
 

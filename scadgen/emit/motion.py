@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import io
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from scadgen.emit.preview import Colour, Shell, render
 from scadgen.interlock.follow import moved, speed
+from scadgen.interlock.taken import Removal
 from scadgen.interlock.verdict import Motion
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["motion_gif", "motion_png"]
+__all__ = ["apart_gif", "motion_gif", "motion_png"]
 
 #: Colours of what rests, in turn, and of what moves.
 _REST: tuple[Colour, ...] = ((200, 200, 196), (172, 174, 178), (222, 218, 208))
@@ -83,17 +84,64 @@ def motion_gif(
     gif
         The file's bytes; the same for the same input.
     """
+    shares = (0.5 - 0.5 * math.cos(2 * math.pi * n / _FRAMES) for n in range(_FRAMES))
+    return _film((_shells(meshes, motion, until, share) for share in shares), size)
+
+
+def apart_gif(
+    meshes: Sequence[tuple[Floats, Ints]],
+    removals: Sequence[Removal],
+    *,
+    size: tuple[int, int] = (640, 480),
+) -> bytes:
+    """Film parts as they are taken apart, one after the other, for ever.
+
+    Parameters
+    ----------
+    meshes
+        Points ``(v, 3) float`` and triangles ``(m, 3) int`` of each part.
+    removals
+        What is taken out, at least one.
+    size
+        Width and height in pixels.
+
+    Returns
+    -------
+    gif
+        The file's bytes; the same for the same input.
+    """
+    return _film((shells for removal in removals for shells in _taken(meshes, removal)), size)
+
+
+def _film(frames: Iterable[list[Shell]], size: tuple[int, int]) -> bytes:
+    """A GIF of some pictures."""
     from PIL import Image  # not needed otherwise
 
     first, *others = (
-        Image.open(io.BytesIO(render(_shells(meshes, motion, until, share), size=size))).quantize(
-            128
-        )
-        for share in (0.5 - 0.5 * math.cos(2 * math.pi * n / _FRAMES) for n in range(_FRAMES))
+        Image.open(io.BytesIO(render(shells, size=size))).quantize(128) for shells in frames
     )
     buffer = io.BytesIO()
     first.save(buffer, format="GIF", save_all=True, append_images=others, duration=_PACE, loop=0)
     return buffer.getvalue()
+
+
+def _taken(meshes: Sequence[tuple[Floats, Ints]], removal: Removal) -> Iterator[list[Shell]]:
+    """What is seen while something is taken out, in frames that hold all of its way."""
+    path = removal.path
+    rest = [(*meshes[n], _REST[n % len(_REST)]) for n in removal.left]
+    corners = np.concatenate([meshes[n][0] for n in removal.parts])
+    reach = float(np.linalg.norm(corners - path.middle, axis=1).max())
+    ends = np.append(0.0, np.cumsum(path.lengths(reach)))
+    gone = np.linspace(0.0, ends[-1], _FRAMES)
+    poses = path.at(np.interp(gone, ends, np.arange(len(ends))))
+    extent = np.concatenate([corners @ pose[:3, :3].T + pose[:3, 3] for pose in poses])
+    extent = np.concatenate([extent, *(points for points, _, _ in rest)])
+    for pose in poses:
+        moving = [
+            (meshes[n][0] @ pose[:3, :3].T + pose[:3, 3], meshes[n][1], _MOVES[k % len(_MOVES)])
+            for k, n in enumerate(removal.parts)
+        ]
+        yield [*rest, *moving, _room(extent)]
 
 
 def _shells(
@@ -113,10 +161,13 @@ def _shells(
         step = motion.translations[n], motion.rotations[n]
         extent += [moved(points, *step, time * k / 4) for k in range(1, 5)]
         shells.append((moved(points, *step, time * share), triangles, _MOVES[n % len(_MOVES)]))
-    # Faces without area are not drawn, but the picture makes room for them.
-    corners = np.concatenate(extent)
-    shells.append((corners, np.repeat(np.arange(len(corners))[:, None], 3, axis=1), (0, 0, 0)))
+    shells.append(_room(np.concatenate(extent)))
     return shells
+
+
+def _room(points: Floats) -> Shell:
+    """Faces without area, which are not drawn, but for which the picture makes room."""
+    return points, np.repeat(np.arange(len(points))[:, None], 3, axis=1), (0, 0, 0)
 
 
 def _duration(meshes: Sequence[tuple[Floats, Ints]], motion: Motion) -> float:

@@ -15,7 +15,7 @@ from scadgen.kit.bill import numbers
 from scadgen.kit.model import Kit
 from scadgen.solid.affine import AffineSolid, Linear, Range
 
-__all__ = ["HEIGHT", "HIGHEST", "Tube", "tubes"]
+__all__ = ["HEIGHT", "HIGHEST", "TubeTop", "tubes"]
 
 #: Numbers rise or sink by this at most, in mm; the wall above a bore is 1.9 mm or more.
 HIGHEST = 1
@@ -30,7 +30,7 @@ HEIGHT = Range(
 
 
 @dataclass(frozen=True, slots=True)
-class Tube:
+class TubeTop:
     """The top of one part's tube.
 
     Parameters
@@ -49,7 +49,7 @@ class Tube:
     corners: tuple[int, int, int, int]
 
 
-def tubes(kit: Kit) -> tuple[Tube, ...]:
+def tubes(kit: Kit) -> tuple[TubeTop, ...]:
     """The tops of the tubes of all edge elements, in the order of the kit.
 
     Parameters
@@ -62,7 +62,7 @@ def tubes(kit: Kit) -> tuple[Tube, ...]:
     return tuple(tube for tube in found if tube is not None)
 
 
-def _tube(solid: AffineSolid, number: int) -> Tube | None:
+def _tube(solid: AffineSolid, number: int) -> TubeTop | None:
     """The triangles on top that reach from one end of the edge to the other."""
     tables = solid.coefficients
     if "side" not in tables or "edge_length" not in tables:
@@ -79,4 +79,4 @@ def _tube(solid: AffineSolid, number: int) -> Tube | None:
         return None
     # From the near right one: right ones away from the joint, then left ones back.
     a, b, c, d = found[np.lexsort((left != far[found], left))].tolist()
-    return Tube(solid.name, number, (int(faces[0]), int(faces[1])), (a, b, c, d))
+    return TubeTop(solid.name, number, (int(faces[0]), int(faces[1])), (a, b, c, d))

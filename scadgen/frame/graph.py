@@ -1,9 +1,10 @@
-"""A planar frame as a value: vertices in mm and the straight edges between them."""
+"""A frame as a value: vertices in mm, the normals of their rings, straight edges between them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,20 +13,13 @@ from scipy.sparse.csgraph import connected_components
 
 from scadgen.errors import InputError, InvariantError
 from scadgen.frame.numbering import Numbering, counted, where
-from scadgen.frame.planarity import check_planar
+from scadgen.frame.tangent import STRAIGHT_UP, UP, angle_about, seen_along
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["LARGEST", "Ends", "Frame", "canonical_order", "make_frame", "vertex_pairs"]
-
-#: Coordinates go up to this, in mm: a kilometre, where 9 decimals are still kept.
-LARGEST = 1e6
+__all__ = ["DECIMALS", "Ends", "Frame"]
 
 #: Decimals of a vertex, in mm; the same as in a part's tables.
-_DECIMALS = 9
-
-#: A direction this little short of a full turn is 0, in radians: what the last decimal does
-#: to an edge of a tenth of a millimetre.
-_NEARLY_ROUND = 1e-8
+DECIMALS = 9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,7 +34,9 @@ class Ends:
     edge, neighbour
         ``(2 m,) int``: whose end it is, and the vertex at the other one.
     angle
-        ``(2 m,) float``: direction of the edge seen from the vertex, in [0, 2 pi).
+        ``(2 m,) float``: azimuth of the edge seen along the vertex's normal, in [0, 2 pi).
+    slope
+        ``(2 m,) float``: how far below the vertex's tangent plane the edge points, in radians.
     gap
         ``(2 m,) float``: angle to the next end at the vertex, counter-clockwise; a full
         turn where there is no other.
@@ -50,21 +46,30 @@ class Ends:
     edge: Ints
     neighbour: Ints
     angle: Floats
+    slope: Floats
     gap: Floats
 
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """A planar graph drawn with straight edges; `make_frame` makes one of any input.
+    """A graph in space, drawn with straight edges.
+
+    `Frame.planar` and `Frame.spatial` put vertices and edges in order;
+    `scadgen.plane.drawn.make_frame` also checks what somebody may have drawn.
 
     Parameters
     ----------
     name
         What to call it.
     vertices
-        ``(n, 2) float``, in mm, ascending by y, then x, to 9 decimals.
+        ``(n, 3) float``, in mm, ascending by z, then y, then x, to 9 decimals.
+    normals
+        ``(n, 3) float``: the axis of each vertex's ring, of length 1.
     edges
         ``(m, 2) int``, each with its lower vertex first, ascending.
+    order
+        ``(2 m,) int``: the ends of the edges, by vertex and counter-clockwise about its normal
+        there; end ``m s + k`` is that of edge k at its first (s = 0) or second (s = 1) vertex.
     numbering
         What vertices and edges are called; None: by their numbers here.  Frames that differ in
         nothing else are equal.
@@ -72,32 +77,129 @@ class Frame:
 
     name: str
     vertices: Floats
+    normals: Floats
     edges: Ints
+    order: Ints
     numbering: Numbering | None = None
 
     def __post_init__(self) -> None:
         """Check the order and freeze the arrays."""
-        order = np.lexsort((self.vertices[:, 0], self.vertices[:, 1]))
+        size = len(self.vertices)
         i, j = self.edges.T
-        steps = np.diff(i * len(self.vertices) + j)
-        if (np.diff(order) != 1).any() or not (i < j).all() or (steps <= 0).any():
+        ordered = (np.diff(np.lexsort(self.vertices.T)) == 1).all()
+        ascending = (i < j).all() and (np.diff(i * size + j) > 0).all()
+        all_ends = np.array_equal(np.sort(self.order), np.arange(2 * len(self.edges)))
+        if not (ordered and ascending and all_ends) or (np.diff(self._vertex_of_ends) < 0).any():
             msg = f"frame {self.name}: not in canonical order"
             raise InvariantError(msg)
-        for array in (self.vertices, self.edges):
+        for array in (self.vertices, self.normals, self.edges, self.order):
             array.setflags(write=False)
 
+    @classmethod
+    def planar(
+        cls, name: str, vertices: ArrayLike, edges: ArrayLike, numbering: Numbering | None = None
+    ) -> Self:
+        """A frame in the plane z = 0, with normals up.
+
+        Parameters
+        ----------
+        name
+            What to call it.
+        vertices
+            ``(n, 2) float``, in mm.
+        edges
+            ``(m, 2) int``: the two vertices of each edge; vertices are put in order.
+        numbering
+            What these vertices and edges are called.
+        """
+        points = np.pad(np.asarray(vertices, dtype=float), ((0, 0), (0, 1)))
+        return cls.spatial(name, points, np.tile(UP, (len(points), 1)), edges, numbering)
+
+    @classmethod
+    def spatial(
+        cls,
+        name: str,
+        vertices: ArrayLike,
+        normals: ArrayLike,
+        edges: ArrayLike,
+        numbering: Numbering | None = None,
+    ) -> Self:
+        """A frame in space; its vertices and edges are put in order.
+
+        Parameters
+        ----------
+        name
+            What to call it.
+        vertices
+            ``(n, 3) float``, in mm.
+        normals
+            ``(n, 3) float``: the axis of each vertex's ring, of any length but 0.
+        edges
+            ``(m, 2) int``: the two vertices of each edge.
+        numbering
+            What these vertices and edges are called.
+
+        Raises
+        ------
+        InputError
+            Normals of another shape or without a direction, or an edge along one.
+        """
+        points = np.asarray(vertices, dtype=float).round(DECIMALS) + 0.0
+        axes = _unit_normals(np.asarray(normals, dtype=float), points)
+        rank = np.lexsort(points.T)
+        pairs = np.sort(np.argsort(rank)[np.asarray(edges, dtype=np.int64)], axis=1)
+        of_edges = np.lexsort(pairs.T[::-1])
+        pairs, numbers = pairs[of_edges], numbering and numbering.sorted(rank, of_edges)
+        points, axes = points[rank], axes[rank]
+        vertex, neighbour = pairs.T.ravel(), pairs[:, ::-1].T.ravel()
+        azimuth, _ = seen_along(axes[vertex], points[neighbour] - points[vertex])
+        _check_azimuths(azimuth, vertex, points)
+        return cls(name, points, axes, pairs, np.lexsort((azimuth, vertex)), numbers)
+
     def __eq__(self, other: object) -> bool:
-        """Whether name, vertices and edges are the same."""
-        return (
-            isinstance(other, Frame)
-            and self.name == other.name
-            and np.array_equal(self.vertices, other.vertices)
-            and np.array_equal(self.edges, other.edges)
-        )
+        """Whether name, vertices, normals, edges and their order are the same."""
+        return isinstance(other, Frame) and self._key == other._key
 
     def __hash__(self) -> int:
         """Equal frames have equal hashes."""
-        return hash((self.name, self.vertices.tobytes(), self.edges.tobytes()))
+        return hash(self._key)
+
+    @property
+    def _key(self) -> tuple[str, bytes, bytes, bytes, bytes]:
+        arrays = (self.vertices, self.normals, self.edges, self.order)
+        first, second, third, fourth = (array.tobytes() for array in arrays)
+        return self.name, first, second, third, fourth
+
+    @property
+    def _vertex_of_ends(self) -> Ints:
+        """``(2 m,) int``: the vertex of each end, in their order."""
+        return np.asarray(self.edges.T.ravel()[self.order])
+
+    @cached_property
+    def is_plane(self) -> bool:
+        """Whether all vertices lie at z = 0 with their normals up."""
+        return not self.vertices[:, 2].any() and bool((self.normals == UP).all())
+
+    @property
+    def plan(self) -> Floats:
+        """``(n, 2) float``: the vertices of a plane frame, in mm.
+
+        Raises
+        ------
+        InputError
+            The frame is not plane.
+        """
+        if not self.is_plane:
+            high = np.abs(self.vertices[:, 2]).max()
+            why = f"vertices reach {high:.4g} mm from z = 0" if high else "normals lean"
+            msg = f"frame {self.name} is not plane: its {why}; must lie in z = 0, with normals +z"
+            raise InputError(msg)
+        return self.vertices[:, :2]
+
+    @property
+    def places(self) -> Floats:
+        """``(n, 2) float`` in the plane, else ``(n, 3)``: the vertices as messages give them."""
+        return self.plan if self.is_plane else self.vertices
 
     @cached_property
     def called(self) -> Numbering:
@@ -106,12 +208,12 @@ class Frame:
 
     def called_vertex(self, vertex: int) -> str:
         """What a vertex is called, and where it is: ``vertex 3 at (0, 80)``."""
-        return self.called.vertex(vertex, self.vertices[vertex])
+        return self.called.vertex(vertex, self.places[vertex])
 
     def called_edge(self, edge: int) -> str:
         """What an edge is called, and where it goes from and to."""
         ends = self.edges[edge]
-        return self.called.edge(edge, ends, self.vertices[ends])
+        return self.called.edge(edge, ends, self.places[ends])
 
     @cached_property
     def degree(self) -> Ints:
@@ -124,36 +226,46 @@ class Frame:
         return np.asarray(np.linalg.norm(np.diff(self.vertices[self.edges], axis=1)[:, 0], axis=1))
 
     @cached_property
+    def twists(self) -> Floats:
+        """``(m,) float``: angle about each edge from one end's normal to the other's, in radians.
+
+        Right-handed, and the same from either end; -pi to pi.
+        """
+        first, second = self.edges.T
+        along = (self.vertices[second] - self.vertices[first]) / self.lengths[:, None]
+        return angle_about(along, self.normals[first], self.normals[second])
+
+    @cached_property
     def ends(self) -> Ends:
         """The ends of the edges, by vertex and direction."""
         count = len(self.edges)
-        vertex, neighbour = self.edges.T.ravel(), self.edges[:, ::-1].T.ravel()
-        dx, dy = (self.vertices[neighbour] - self.vertices[vertex]).T
-        angle = np.arctan2(dy, dx) % (2 * np.pi)
-        angle[angle > 2 * np.pi - _NEARLY_ROUND] = 0.0
-        order = np.lexsort((angle, vertex))
-        angle = angle[order]
+        edge, vertex = self.order % count, self._vertex_of_ends
+        neighbour = self.edges[:, ::-1].T.ravel()[self.order]
+        azimuth, slope = seen_along(
+            self.normals[vertex], self.vertices[neighbour] - self.vertices[vertex]
+        )
         first = np.concatenate([[0], np.cumsum(self.degree)])
-        after = np.arange(1, 2 * count + 1)
-        after[first[1:] - 1] = first[:-1]
-        gap = angle[after] - angle
-        gap[first[1:] - 1] += 2 * np.pi
-        edge = np.tile(np.arange(count), 2)[order]
-        return Ends(first, edge, neighbour[order], angle, gap)
+        gap = np.empty_like(azimuth)
+        gap[:-1] = np.diff(azimuth)
+        last = first[1:] - 1
+        gap[last] = azimuth[first[:-1]] - azimuth[last] + 2 * np.pi
+        return Ends(first, edge, neighbour, azimuth, slope, gap)
 
     @cached_property
     def slots(self) -> Ints:
         """``(m, 2) int``: the slot of each edge at its two vertices."""
-        ends = self.ends
-        vertex = np.repeat(np.arange(len(self.vertices)), self.degree)
-        side = (vertex == self.edges[ends.edge, 1]).astype(np.int64)
+        side, edge = np.divmod(self.order, len(self.edges))
         slots = np.empty_like(self.edges)
-        slots[ends.edge, side] = np.arange(len(vertex)) - ends.first[vertex]
+        slots[edge, side] = np.arange(len(self.order)) - self.ends.first[self._vertex_of_ends]
         return slots
 
     def directions(self, vertex: int) -> Floats:
-        """Directions of the edges at a vertex, ascending, in [0, 2 pi)."""
+        """Azimuths of the edges at a vertex, counter-clockwise, in [0, 2 pi)."""
         return self.ends.angle[self.ends.first[vertex] : self.ends.first[vertex + 1]]
+
+    def slopes(self, vertex: int) -> Floats:
+        """How far below the tangent plane each edge at a vertex points, in radians, by slot."""
+        return self.ends.slope[self.ends.first[vertex] : self.ends.first[vertex + 1]]
 
     def gaps(self, vertex: int) -> Floats:
         """Angle from each edge at a vertex to the next, counter-clockwise."""
@@ -170,111 +282,37 @@ class Frame:
 
     @property
     def bounds(self) -> Floats:
-        """``(2, 2) float``: lower left and upper right corner of its bounding box, in mm."""
-        return np.stack([self.vertices.min(axis=0), self.vertices.max(axis=0)])
+        """``(2, 2) float`` in the plane, else ``(2, 3)``: corners of its bounding box, in mm."""
+        return np.stack([self.places.min(axis=0), self.places.max(axis=0)])
 
 
-def make_frame(
-    name: str, vertices: ArrayLike, edges: ArrayLike, numbering: Numbering | None = None
-) -> Frame:
-    """Check a planar graph and put it in order; the order of the input does not matter.
-
-    Parameters
-    ----------
-    name
-        What to call it.
-    vertices
-        ``(n, 2) float``, in mm; they are rounded to 9 decimals.
-    edges
-        ``(m, 2) int``: the two vertices of each edge.
-    numbering
-        What these vertices and edges are called.
+def _unit_normals(normals: Floats, points: Floats) -> Floats:
+    """Normals of length 1.
 
     Raises
     ------
     InputError
-        Another shape, coordinates that are not finite or beyond `LARGEST`, an edge to a
-        vertex that is not there or to itself, an edge given twice, a vertex without an edge,
-        vertices that are one, edges that meet elsewhere than at a vertex.  They are called as
-        `numbering` says, else by their numbers in the input.
+        There is not one for each vertex, or it has no direction.
     """
-    points = _points(vertices)
-    pairs = vertex_pairs(edges, len(points))
-    called = numbering or counted(len(points), len(pairs))
-    _check_pairs(pairs, points, called)
-    check_planar(points, pairs, called)
-    order = canonical_order(points)
-    pairs = np.sort(np.argsort(order)[pairs], axis=1)
-    of_edges = np.lexsort(pairs.T[::-1])
-    numbers = numbering and numbering.sorted(order, of_edges)
-    return Frame(name, points[order], pairs[of_edges], numbers)
-
-
-def canonical_order(points: Floats) -> Ints:
-    """The order of a frame's vertices: ascending by y, then x, as they are rounded.
-
-    Parameters
-    ----------
-    points
-        ``(n, 2) float``, in mm.
-    """
-    rounded = points.round(_DECIMALS)
-    return np.asarray(np.lexsort((rounded[:, 0], rounded[:, 1])), dtype=np.int64)
-
-
-def _points(vertices: ArrayLike) -> Floats:
-    points = np.asarray(vertices, dtype=float)
-    if points.ndim != 2 or points.shape[1] != 2:
-        msg = f"vertices of shape {points.shape}: must be (n, 2), an x and a y each"
+    if points.ndim != 2 or points.shape[1] != 3 or normals.shape != points.shape:
+        msg = (
+            f"vertices of shape {points.shape} with normals of shape {normals.shape}: "
+            "must both be (n, 3), an x, a y and a z each"
+        )
         raise InputError(msg)
-    bad = np.flatnonzero(~(np.abs(points) <= LARGEST).all(axis=1))
+    lengths = np.linalg.norm(normals, axis=1)
+    bad = np.flatnonzero(~(np.isfinite(lengths) & (lengths > 0)))
     if len(bad):
-        msg = f"vertex {bad[0]} at {where(points[bad[0]])}: must be within {LARGEST:g} mm of 0"
+        msg = f"normal at {where(points[bad[0]])}, {where(normals[bad[0]])}: must have a direction"
         raise InputError(msg)
-    return np.asarray(points.round(_DECIMALS) + 0.0)
+    return np.asarray(normals / lengths[:, None])
 
 
-def vertex_pairs(edges: ArrayLike, count: int) -> Ints:
-    """Edges between so many vertices, ``(m, 2) int``.
-
-    Raises
-    ------
-    InputError
-        Another shape, none, or a vertex that is not there.
-    """
-    given = np.asarray(edges)
-    if given.ndim != 2 or given.shape[1] != 2 or not len(given):
-        msg = f"edges of shape {given.shape}: must be (m, 2), two vertices each, at least one edge"
-        raise InputError(msg)
-    if given.dtype.kind not in "iu":
-        msg = f"edges of type {given.dtype}: must be whole numbers"
-        raise InputError(msg)
-    if not count:
-        msg = "there are no vertices: must be two or more"
-        raise InputError(msg)
-    pairs = given.astype(np.int64)
-    bad = np.flatnonzero(((pairs < 0) | (pairs >= count)).any(axis=1))
+def _check_azimuths(azimuth: Floats, vertex: Ints, points: Floats) -> None:
+    bad = np.flatnonzero(np.isnan(azimuth))
     if len(bad):
-        msg = f"edge {bad[0]} = {pairs[bad[0]].tolist()}: vertices go from 0 to {count - 1}"
-        raise InputError(msg)
-    return pairs
-
-
-def _check_pairs(pairs: Ints, points: Floats, called: Numbering) -> None:
-    loops = np.flatnonzero(pairs[:, 0] == pairs[:, 1])
-    if len(loops):
-        at = pairs[loops[0], 0]
-        edge = called.short(loops[0], pairs[loops[0]], points[pairs[loops[0]]])
-        msg = f"{edge} goes from {called.vertex(at, points[at])} to itself"
-        raise InputError(msg)
-    low = np.sort(pairs, axis=1)
-    _, first, inverse = np.unique(low, axis=0, return_index=True, return_inverse=True)
-    again = np.flatnonzero(first[inverse.ravel()] != np.arange(len(pairs)))
-    if len(again):
-        of = first[inverse.ravel()[again[0]]]
-        msg = f"edge {again[0]} = {pairs[again[0]].tolist()}: the same as edge {of}"
-        raise InputError(msg)
-    alone = np.setdiff1d(np.arange(len(points)), pairs)
-    if len(alone):
-        msg = f"{called.vertex(alone[0], points[alone[0]])} has no edge"
+        msg = (
+            f"an edge at {where(points[vertex[bad[0]]])} runs along the normal there: must be more "
+            f"than {np.degrees(STRAIGHT_UP):.2g} degrees off it"
+        )
         raise InputError(msg)

@@ -1,105 +1,32 @@
-"""Which shape of joint stands at every vertex: at the rim often a larger one, filled up with caps.
-
-A vertex at the rim often lacks some edges of an inner one.  Caps, which are connectors without
-a tube, stand for them, so that both are the same joint.  Where it fits into the inner one in
-several ways, it takes the one in which its edges are like most inner ones.
-"""
+"""Which joints others fit into, with caps where they have no edge."""
 
 from __future__ import annotations
 
 import itertools
-from collections import defaultdict
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
-from scadgen.frame.congruence import JointClass
-from scadgen.frame.graph import Frame
-from scadgen.frame.keys import ANGLE
-from scadgen.frame.sameness import Sameness
-from scadgen.joint.symmetry import Symmetry
-from scadgen.solid.affine import Floats, Ints
+from scadgen.frame.classes import Classes
+from scadgen.frame.joint_classes import JointClass
+from scadgen.frame.slots import ANGLE
+from scadgen.frame.template import Template
 
-__all__ = ["Hosted", "Shape", "hosted"]
-
-#: Directions of a joint at the end of a lone edge: its own, and two caps.
-_LONE = np.array([0.0, 2 * np.pi / 3, 4 * np.pi / 3])
+__all__ = ["Host", "find_hosts", "sign"]
 
 #: Least gap of a joint that a lone end may stand in, in degrees.
 _NARROW = 60.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Shape:
-    """Directions in which a joint has connectors.
-
-    Parameters
-    ----------
-    directions
-        ``(k,) float``: ascending from 0, in radians, caps' included.
-    symmetry
-        Which of them are alike.
-    """
-
-    directions: Floats
-    symmetry: Symmetry
-
-    @property
-    def gaps(self) -> Floats:
-        """``(k,) float``: angle from each direction to the next."""
-        return _gaps(self.directions)
-
-    def turned_over(self) -> Shape:
-        """The same turned over: slot s where ``-s`` was."""
-        back = -np.arange(len(self.directions)) % len(self.directions)
-        directions = -self.directions[back] % (2 * np.pi)
-        return Shape(directions, self.symmetry.turned_over())
-
-
-def _gaps(directions: Floats) -> Floats:
-    """Angle from each direction, ascending from 0, to the next."""
-    return np.diff(np.append(directions, 2 * np.pi))
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Hosted:
-    """What shape stands where.
-
-    Parameters
-    ----------
-    shapes
-        Of all joints.
-    shape_of
-        ``(n,) int``: the shape of each vertex.
-    over
-        ``(n,) bool``: whether its shape is turned over there; not if it can be turned over onto
-        itself.
-    turn
-        ``(n,) float``: where its shape's first direction is there; as small as the shape's
-        symmetry allows.
-    slots
-        ``(m, 2) int``: the slot of its shape that each end of an edge takes.
-    """
-
-    shapes: tuple[Shape, ...]
-    shape_of: Ints
-    over: NDArray[np.bool_]
-    turn: Floats
-    slots: Ints
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Host:
+class Host:
     """A joint whose directions a class of joints fits into.
 
     Parameters
     ----------
     joint
-        Number of the class that it is; -1 for that of a lone end.
+        Number of the class that it is; ``~number`` for a lone end with caps of its own.
     turn
         Where the class's first direction is among its own.
     over
@@ -114,229 +41,58 @@ class _Host:
     slots: tuple[int, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class _Stood:
-    """A host at a vertex: whether it is turned over, its turn, its slots by the class's."""
-
-    over: bool
-    turn: float
-    slots: tuple[int, ...]
-
-
-def hosted(frame: Frame, same: Sameness, *, rim: bool = True) -> Hosted:
-    """Find the shape of the joint at every vertex.
-
-    Parameters
-    ----------
-    frame
-        The frame.
-    same
-        What of it is the same.
-    rim
-        Whether a joint that lacks edges of another gets caps in their place.  Without, only
-        lone ends of edges get some.
-    """
-    inner = np.unique(same.joint_of[~_at_rim(frame)]).tolist()
-    hosts = _hosts(same, range(len(same.joints)) if not rim else inner)
-    choice = _Choice(frame, same, hosts)
-    chosen = choice.made()
-    used = sorted({host.joint for host in chosen})
-    found = [choice.standing(vertex, host) for vertex, host in enumerate(chosen)]
-    return Hosted(
-        tuple(choice.shape(number) for number in used),
-        np.array([used.index(host.joint) for host in chosen]),
-        np.array([stood.over for stood in found]),
-        np.array([stood.turn for stood in found]),
-        np.array(
-            [
-                [found[v].slots[n] for v, n in zip(*pair, strict=True)]
-                for pair in zip(frame.edges.tolist(), choice.place.tolist(), strict=True)
-            ]
-        ),
-    )
-
-
-def _at_rim(frame: Frame) -> NDArray[np.bool_]:
-    """Which vertices are on the outline of the frame, or of one of its components."""
-    ends = frame.ends
-    count = len(ends.edge)
-    vertex = np.repeat(np.arange(len(frame.vertices)), frame.degree)
-    pairs = np.argsort(ends.edge, kind="stable").reshape(-1, 2)
-    twin = np.empty(count, dtype=np.int64)
-    twin[pairs] = pairs[:, ::-1]
-    # The way around a face on the left: from where an edge arrives to the end before it there.
-    start = ends.first[ends.neighbour]
-    after = start + (twin - start - 1) % frame.degree[ends.neighbour]
-    around = coo_array((np.ones(count), (np.arange(count), after)), shape=(count, count))
-    faces, face = connected_components(around, directed=False)
-    first, second = frame.vertices[vertex], frame.vertices[ends.neighbour]
-    area = np.bincount(face, first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0], faces)
-    at_rim = np.zeros(len(frame.vertices), dtype=bool)
-    # It goes around the outer face of a component the other way, which is alone in a tree.
-    component = np.empty(faces, dtype=np.int64)
-    component[face] = frame.components[vertex]
-    order = np.lexsort((area, component))
-    outer = order[np.unique(component[order], return_index=True)[1]]
-    at_rim[vertex[np.isin(face, outer)]] = True
-    return at_rim
-
-
-def _hosts(same: Sameness, kept: Collection[int]) -> list[list[_Host]]:
+def find_hosts(same: Classes, kept: Collection[int]) -> list[list[Host]]:
     """The ways in which each class of joints may stand: as itself, if it is to be kept.
 
     It fits into classes with more edges; those that are most used come first.  A class whose
     hosts are all hosted themselves, by what it does not fit into, stands as itself.
     """
-    directions = [joint.directions for joint in same.joints]
-    found: list[list[_Host]] = []
-    itself: list[_Host] = []
-    for number, own in enumerate(directions):
-        larger = [n for n, other in enumerate(directions) if len(other) > len(own)]
+    joints = same.joints
+    found: list[list[Host]] = []
+    itself: list[Host] = []
+    for number, one in enumerate(joints):
+        own = one.directions
+        larger = [n for n, other in enumerate(joints) if len(other.directions) > len(own)]
         larger = [] if number in kept else larger
         if len(own) == 1:
-            larger = [n for n in larger if _holds_lone_ends(directions[n])]
-        larger.sort(key=lambda n: (-len(same.joints[n].vertices), n))
-        fits = [host for n in larger for host in _fits(own, n, same.joints[n])]
-        joint = number if len(own) > 1 else -1
-        alone = _Host(joint, 0.0, over=False, slots=tuple(range(len(own))))
+            larger = [n for n in larger if _holds_lone_ends(Template.of(joints[n]))]
+        larger.sort(key=lambda n: (-len(joints[n].vertices), n))
+        fits = [host for n in larger for host in _fits(one, n, joints[n])]
+        joint = number if len(own) > 1 else ~number
+        alone = Host(joint, 0.0, over=False, slots=tuple(range(len(own))))
         found.append(fits or [alone])
         itself.append(alone)
     return [list(_roots(found, hosts)) or [own] for hosts, own in zip(found, itself, strict=True)]
 
 
-def _holds_lone_ends(directions: Floats) -> bool:
-    """Whether a lone end may stand in a joint with these directions.
+def _holds_lone_ends(template: Template) -> bool:
+    """Whether a lone end may stand in such a joint.
 
     Narrow gaps take a wide ring; across a wide one connectors hold only what is held elsewhere too.
     """
-    gaps = _gaps(directions)
+    gaps = template.gaps
     return bool(gaps.min() > np.radians(_NARROW) - ANGLE and gaps.max() < np.pi + ANGLE)
 
 
-def _fits(own: Floats, number: int, host: JointClass) -> Iterator[_Host]:
-    """The ways that put some directions among those of another class."""
+def _fits(own: JointClass, number: int, host: JointClass) -> Iterator[Host]:
+    """The ways that put the edges of a class among those of another one."""
     # Turned over they fit a host that is itself turned over just as they do otherwise.
     ways = (False, True) if host.symmetry.mirror is None else (False,)
     for over, start in itertools.product(ways, host.directions.tolist()):
-        seen = start + _sign(over) * own
+        seen = start + sign(over) * own.directions
         off = (seen[:, None] - host.directions + np.pi) % (2 * np.pi) - np.pi
         slots = np.abs(off).argmin(axis=1)
-        if (np.abs(off[np.arange(len(own)), slots]) < ANGLE).all():
-            yield _Host(number, start, over, tuple(slots.tolist()))
+        aside = off[np.arange(len(slots)), slots]
+        down = sign(over) * own.slopes - host.slopes[slots]
+        if (np.abs([aside, down]) < ANGLE).all():
+            yield Host(number, start, over, tuple(slots.tolist()))
 
 
-def _sign(over: bool) -> int:  # noqa: FBT001
+def sign(over: bool) -> int:  # noqa: FBT001
     """The sense in which directions follow each other."""
     return -1 if over else 1
 
 
-def _roots(hosts: Sequence[Sequence[_Host]], own: Sequence[_Host]) -> Iterator[_Host]:
+def _roots(hosts: Sequence[Sequence[Host]], own: Sequence[Host]) -> Iterator[Host]:
     """Those of some hosts that have no host of their own."""
     return (host for host in own if host.joint < 0 or hosts[host.joint][0].joint == host.joint)
-
-
-class _Choice:
-    """The choice of a host for each vertex."""
-
-    def __init__(self, frame: Frame, same: Sameness, hosts: Sequence[Sequence[_Host]]) -> None:
-        self._frame, self._same, self._hosts = frame, same, hosts
-        #: Which direction of its class each end of an edge takes.
-        way = np.where(same.over, -1, 1)[frame.edges]
-        self.place = way * (frame.slots - same.shift[frame.edges]) % frame.degree[frame.edges]
-        self._ends: list[list[tuple[int, int]]] = [[] for _ in frame.vertices]
-        for edge, pair in enumerate(frame.edges.tolist()):
-            for end, vertex in enumerate(pair):
-                self._ends[vertex].append((edge, end))
-
-    def shape(self, joint: int) -> Shape:
-        """The shape of a class of joints."""
-        if joint < 0:
-            return Shape(_LONE, Symmetry(3, 1, 0))
-        found = self._same.joints[joint]
-        return Shape(found.directions, found.symmetry)
-
-    def standing(self, vertex: int, host: _Host) -> _Stood:
-        """A joint in a host, turned as little as its symmetry allows, over only if need be.
-
-        A lone end stays as it is: with its edge in the first slot.
-        """
-        over = bool(self._same.over[vertex]) != host.over
-        turn = float(self._same.turn[vertex]) - _sign(over) * host.turn
-        if host.joint < 0:
-            return _Stood(over=False, turn=turn, slots=host.slots)
-        shape = self.shape(host.joint)
-        slots, count, mirror = np.array(host.slots), len(shape.directions), shape.symmetry.mirror
-        if over and mirror is not None:
-            over, turn = False, turn - float(shape.directions[mirror])
-            slots = mirror - slots
-        least, steps = shape.symmetry.least_turn(np.array([turn % (2 * np.pi)]), ANGLE)
-        slots = (slots + _sign(over) * int(steps[0]) * shape.symmetry.period) % count
-        return _Stood(over, float(least[0]), tuple(slots.tolist()))
-
-    def made(self) -> list[_Host]:
-        """The host of each vertex."""
-        options = [self._hosts[joint] for joint in self._same.joint_of.tolist()]
-        chosen = {v: hosts[0] for v, hosts in enumerate(options) if len(hosts) == 1}
-        usual = {
-            pair
-            for edge, ends in enumerate(self._frame.edges.tolist())
-            if all(vertex in chosen for vertex in ends)
-            for pair in itertools.permutations(
-                self._end(edge, end, chosen[v]) for end, v in enumerate(ends)
-            )
-        }
-        turns = self._turns(chosen)
-        for vertex in self._outwards(chosen):
-            chosen[vertex] = max(
-                options[vertex],
-                key=lambda host: (
-                    self._likeness(vertex, host, chosen, usual),
-                    self._is_usual(vertex, host, turns),
-                ),
-            )
-        return [chosen[vertex] for vertex in range(len(options))]
-
-    def _turns(self, chosen: Mapping[int, _Host]) -> dict[tuple[int, bool], Floats]:
-        """How the chosen hosts are turned, by their joint and whether they are turned over."""
-        found = defaultdict(set)
-        for vertex, host in chosen.items():
-            stood = self.standing(vertex, host)
-            found[host.joint, stood.over].add(stood.turn)
-        return {which: np.array(sorted(turns)) for which, turns in found.items()}
-
-    def _is_usual(self, vertex: int, host: _Host, turns: Mapping[tuple[int, bool], Floats]) -> bool:
-        """Whether a host would be turned at a vertex as one of others is."""
-        stood = self.standing(vertex, host)
-        off = turns.get((host.joint, stood.over), np.empty(0)) - stood.turn
-        return bool((np.abs((off + np.pi) % (2 * np.pi) - np.pi) < ANGLE).any())
-
-    def _end(self, edge: int, end: int, host: _Host) -> tuple[int, bool, int]:
-        """Joint, whether it is turned over, and slot of an edge's end in a host."""
-        vertex = int(self._frame.edges[edge, end])
-        stood = self.standing(vertex, host)
-        return host.joint, stood.over, stood.slots[int(self.place[edge, end])]
-
-    def _outwards(self, chosen: Collection[int]) -> Iterator[int]:
-        """The vertices that are not chosen, those beside chosen ones first."""
-        reached, wave = set(chosen), set(chosen)
-        while wave:
-            wave = {
-                int(self._frame.edges[edge, 1 - end]) for v in wave for edge, end in self._ends[v]
-            } - reached
-            yield from sorted(wave)
-            reached |= wave
-        yield from sorted(set(range(len(self._ends))) - reached)
-
-    def _likeness(
-        self,
-        vertex: int,
-        host: _Host,
-        chosen: dict[int, _Host],
-        usual: Collection[tuple[tuple[int, bool, int], ...]],
-    ) -> int:
-        """How many of a vertex's edges would be like usual ones, as far as is known."""
-        return sum(
-            (self._end(edge, end, host), self._end(edge, 1 - end, chosen[other])) in usual
-            for edge, end in self._ends[vertex]
-            if (other := int(self._frame.edges[edge, 1 - end])) in chosen
-        )

@@ -9,16 +9,18 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from scadgen.frame.alike import Ends, Slots
+from scadgen.frame.classes import Classes, joint_name
+from scadgen.frame.element_classes import ElementEnds, Slots
 from scadgen.frame.graph import Frame
-from scadgen.frame.hosts import Hosted, Shape, hosted
-from scadgen.frame.keys import Places, Refused, choose_keys
+from scadgen.frame.keys import choose_keys
 from scadgen.frame.rows import choose_keys_in_rows
-from scadgen.frame.sameness import Sameness, joint_name
+from scadgen.frame.slots import Places, Refused
+from scadgen.frame.template import Template
+from scadgen.frame.templates import Templates, fit_templates
 from scadgen.joint.symmetry import Symmetry
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["Kind", "Kinds", "Shape", "choose_kinds"]
+__all__ = ["Kind", "Kinds", "choose_kinds"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,14 +61,14 @@ class Kinds:
         ``(m, 2) int``: the slot of its shape that each end of an edge takes.
     """
 
-    shapes: tuple[Shape, ...]
+    shapes: tuple[Template, ...]
     kinds: tuple[Kind, ...]
     kind_of: Ints
     over: NDArray[np.bool_]
     turn: Floats
     slots: Ints
 
-    def shape(self, kind: int) -> Shape:
+    def shape(self, kind: int) -> Template:
         """The shape of a kind's joints."""
         return self.shapes[self.kinds[kind].shape]
 
@@ -87,7 +89,14 @@ class Kinds:
             for shape in [self.shapes[kind.shape]]
         )
 
-    def ends(self, edges: Ints, lengths: Floats, sockets: Sequence[int], slots: Slots) -> Ends:
+    def ends(
+        self,
+        edges: Ints,
+        lengths: Floats,
+        sockets: Sequence[int],
+        slots: Slots,
+        twists: Floats | float = 0.0,
+    ) -> ElementEnds:
         """What the elements of some edges end in.
 
         Parameters
@@ -100,6 +109,8 @@ class Kinds:
             For each kind a number under that of all kinds: what an element ends in at a key.
         slots
             Which connectors are the same.
+        twists
+            ``(m,) float``, or one for all: how far the edges turn about themselves; as lengths.
 
         Returns
         -------
@@ -113,7 +124,7 @@ class Kinds:
         split = keyed[place]
         what = np.where(split, np.array(sockets)[place[0]], len(self.kinds) + slots.what[place])
         over, either = slots.over[place] ^ self.over[edges], slots.either[place] | split
-        return Ends(what, over, either, lengths)
+        return ElementEnds(what, over, either, lengths, twists)
 
     def directions(self, vertex: int) -> Floats:
         """Where the connectors of a vertex point, by slot, in radians."""
@@ -123,7 +134,7 @@ class Kinds:
 
 def choose_kinds(
     frame: Frame,
-    same: Sameness,
+    same: Classes,
     *,
     rim: bool = True,
     refused: Sequence[Refused] = (),
@@ -150,7 +161,7 @@ def choose_kinds(
     InputError
         There are no such rows.
     """
-    found = hosted(frame, same, rim=rim)
+    found = fit_templates(frame, same, rim=rim)
 
     def gathered(keys: Sequence[Collection[int]]) -> Kinds:
         return _gathered(found, frame, keys)
@@ -170,16 +181,16 @@ def choose_kinds(
     return _as_most_lie(gathered(chosen), frame)
 
 
-def _parts(kinds: Kinds, frame: Frame, same: Sameness) -> int:
+def _parts(kinds: Kinds, frame: Frame, same: Classes) -> int:
     """How many kinds of joints and, at most, of edge elements: shapes may have more in common."""
     # Sockets are those of a ring, which joints of one shape have alike.
     sockets = [one.shape for one in kinds.kinds]
     slots = Slots.of(kinds.symmetries)
-    elements = kinds.ends(frame.edges, same.lengths, sockets, slots).alike()
+    elements = kinds.ends(frame.edges, same.lengths, sockets, slots, same.twists).alike()
     return len(kinds.kinds) + len(elements.what)
 
 
-def _gathered(found: Hosted, frame: Frame, keys: Sequence[Collection[int]]) -> Kinds:
+def _gathered(found: Templates, frame: Frame, keys: Sequence[Collection[int]]) -> Kinds:
     """Turn each joint so that alike keys are in the same slots, and number the kinds."""
     shapes, shape_of = found.shapes, found.shape_of
     over, turn, slots = found.over.copy(), found.turn.copy(), found.slots.copy()

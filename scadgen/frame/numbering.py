@@ -41,7 +41,7 @@ class Numbering:
         ends
             Its two vertices.
         points
-            ``(2, 2) float``: their places, in mm.
+            ``(2, 2) float`` or ``(2, 3)``: their places, in mm.
         """
         called = "the edge" if self.edges is None else f"edge {self.edges[edge]}"
         if self.vertices is None:
@@ -89,5 +89,5 @@ def counted(vertices: int, edges: int) -> Numbering:
 
 
 def where(point: Floats) -> str:
-    """A point as text: ``(12.5, 40)``, in mm."""
-    return f"({point[0] + 0.0:.6g}, {point[1] + 0.0:.6g})"
+    """A point of two or three coordinates as text: ``(12.5, 40)``, in mm."""
+    return f"({', '.join(f'{number + 0.0:.6g}' for number in point)})"

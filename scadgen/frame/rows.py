@@ -16,7 +16,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from scadgen.errors import InputError
-from scadgen.frame.keys import ANGLE, Keys, Places, turned_alike
+from scadgen.frame.keys import turned_alike
+from scadgen.frame.slots import ANGLE, Keys, Places
 from scadgen.solid.affine import Floats
 
 __all__ = ["choose_keys_in_rows"]

@@ -2,7 +2,8 @@
 
 Round an edge, faces alternate between those where material begins and those where it ends.
 Two faces with material between them belong to one body; so two bodies that share an edge, or
-a whole face, are told apart, which counting shared edges alone cannot do.
+a whole face, are told apart, which counting shared edges alone cannot do.  By the same pairs a
+body that touches itself is split there: it gets a point for each fan of faces.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from scipy.sparse.csgraph import connected_components
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.mesh import volume
 
-__all__ = ["bodies", "open_edges"]
+__all__ = ["bodies", "open_edges", "unpinched"]
 
 #: Angle, in radians, up to which faces round an edge lie on each other.
 _SAME = 1e-5
@@ -51,7 +52,7 @@ def bodies(points: Floats, triangles: Ints) -> list[Ints]:
         Face numbers of each, ordered by their first.  The wall of a cavity goes with the
         smallest body around it.
     """
-    one, other = _across_material(points, triangles)
+    one, other = (half // 3 for half in _across_material(points, triangles))
     count = len(triangles)
     graph = coo_array((np.ones(len(one)), (one, other)), shape=(count, count))
     found, label = connected_components(graph, directed=False)
@@ -79,8 +80,79 @@ def bodies(points: Floats, triangles: Ints) -> list[Ints]:
     return [np.sort(faces) for faces in merged]
 
 
+def unpinched(points: Floats, triangles: Ints) -> tuple[Floats, Ints]:
+    """Split the points where a body touches itself, along an edge or at a corner.
+
+    Parameters
+    ----------
+    points
+        ``(v, 3) float``; equal points have one number.
+    triangles
+        ``(m, 3) int``: a closed surface, counter-clockwise from outside.
+
+    Returns
+    -------
+    points, triangles
+        The same surface as a manifold: every edge has two faces, every point one fan of them.
+    """
+    while True:
+        points, triangles, one, other = _fanned(points, triangles)
+        ends = np.sort(np.column_stack([triangles.reshape(-1), _after(triangles)])[one], axis=1)
+        _, edge, uses = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
+        pinched = np.flatnonzero(uses[edge.reshape(-1)] > 1)
+        if not len(pinched):
+            return points, triangles
+        # Where the fans at both its ends hang together, an edge is parted in its middle.
+        chosen = _apart(one[pinched] // 3, other[pinched] // 3)
+        points, triangles = _parted(points, triangles, one[pinched[chosen]], other[pinched[chosen]])
+
+
+def _after(triangles: Ints) -> Ints:
+    """Where each half edge ends."""
+    return np.roll(triangles, -1, axis=1).reshape(-1)
+
+
+def _fanned(points: Floats, triangles: Ints) -> tuple[Floats, Ints, Ints, Ints]:
+    """The same with a point for each fan of faces, and the pairs of half edges."""
+    one, other = _across_material(points, triangles)
+    # The tail of a half edge is the head of the one that it meets.
+    after = np.arange(triangles.size).reshape(-1, 3)[:, [1, 2, 0]].reshape(-1)
+    corner = np.concatenate([one, after[one]]), np.concatenate([after[other], other])
+    count = triangles.size
+    graph = coo_array((np.ones(len(corner[0])), corner), shape=(count, count))
+    _, fan = connected_components(graph, directed=False)
+    _, first = np.unique(fan, return_index=True)
+    return points[triangles.reshape(-1)[first]], fan.astype(np.int64).reshape(-1, 3), one, other
+
+
+def _apart(one: Ints, other: Ints) -> list[int]:
+    """Numbers of pairs of faces, as many as have no face in common with an earlier one."""
+    taken: set[int] = set()
+    chosen = []
+    for number, pair in enumerate(zip(one.tolist(), other.tolist(), strict=True)):
+        if taken.isdisjoint(pair):
+            taken.update(pair)
+            chosen.append(number)
+    return chosen
+
+
+def _parted(points: Floats, triangles: Ints, one: Ints, other: Ints) -> tuple[Floats, Ints]:
+    """Faces on both sides of some edges cut in two, each pair at a point of its own."""
+    middles = points[triangles.reshape(-1)[one]] + points[_after(triangles)[one]]
+    half = np.concatenate([one, other])
+    number = len(points) + np.tile(np.arange(len(one)), 2)
+    face, corner = np.divmod(half, 3)
+    a, b, c = (triangles[face, (corner + k) % 3] for k in range(3))
+    kept = np.delete(triangles, face, axis=0)
+    cut = [np.column_stack([a, number, c]), np.column_stack([number, b, c])]
+    return np.concatenate([points, middles / 2]), np.concatenate([kept, *cut])
+
+
 def _across_material(points: Floats, triangles: Ints) -> tuple[Ints, Ints]:
-    """Pairs of faces with nothing but material between them, round an edge."""
+    """Pairs of half edges whose faces have nothing but material between them.
+
+    Number ``3 * face + corner`` starts at that corner.
+    """
     tail, head = triangles.reshape(-1), np.roll(triangles, -1, axis=1).reshape(-1)
     third = np.roll(triangles, -2, axis=1).reshape(-1)
     ends = np.sort(np.column_stack([tail, head]), axis=1)
@@ -104,6 +176,5 @@ def _across_material(points: Floats, triangles: Ints) -> tuple[Ints, Ints]:
     start = np.flatnonzero(np.diff(edge[order], prepend=-1))
     following = np.arange(1, len(order) + 1)
     following[np.append(start[1:], len(order)) - 1] = start
-    face = np.repeat(np.arange(len(triangles)), 3)[order]
     first = np.flatnonzero(begins[order])
-    return face[first], face[following[first]]
+    return order[first], order[following[first]]

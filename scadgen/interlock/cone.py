@@ -11,7 +11,7 @@ from scipy.optimize import linprog, nnls
 
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.field import Field
-from scadgen.interlock.scene import Pose, Scene
+from scadgen.interlock.scene import Scene, Stance
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["Walls", "nearest", "widest"]
@@ -59,15 +59,15 @@ class Walls:
         self._own = _field(body, _CELL * self.size)
         self._around = _field(scene.rest, _CELL * self.size)
         self._seen: tuple[Ints, Ints] = (np.arange(0), np.arange(0))
-        self._from: Pose | None = None
+        self._from: Stance | None = None
         self._reach = float(np.linalg.norm(self._points, axis=1).max())
 
-    def gap(self, pose: Pose) -> float:
+    def gap(self, pose: Stance) -> float:
         """Smallest distance, in mm: about; at most `_SIGHT`."""
         values, others = self._values(pose)[:2]
         return float(min(values.min(initial=self._far), others.min(initial=self._far)))
 
-    def rows(self, pose: Pose, gap: float) -> tuple[Floats, Floats]:
+    def rows(self, pose: Stance, gap: float) -> tuple[Floats, Floats]:
         """What the walls demand of a step.
 
         Parameters
@@ -85,7 +85,7 @@ class Walls:
         rows, gaps = self.near(pose)
         return rows, np.minimum(gap - gaps, _RECEDE * self.size)
 
-    def near(self, pose: Pose) -> tuple[Floats, Floats]:
+    def near(self, pose: Stance) -> tuple[Floats, Floats]:
         """Near points: how fast each recedes under a step, and its distance.
 
         Parameters
@@ -120,7 +120,7 @@ class Walls:
     def _far(self) -> float:
         return _SIGHT * self.size / 2
 
-    def _values(self, pose: Pose) -> tuple[Floats, Floats, Floats, Floats]:
+    def _values(self, pose: Stance) -> tuple[Floats, Floats, Floats, Floats]:
         """Distances of the body's and the others' points in sight, and the points themselves.
 
         The body's are given in space, the others' as the body sees them.
@@ -136,11 +136,13 @@ class Walls:
         points, back = self._placed(pose, *self._seen)
         return self._around.value(points), self._own.value(back), points, back
 
-    def _placed(self, pose: Pose, own: Ints | slice, others: Ints | slice) -> tuple[Floats, Floats]:
+    def _placed(
+        self, pose: Stance, own: Ints | slice, others: Ints | slice
+    ) -> tuple[Floats, Floats]:
         points = self._points[own] @ pose.turn.T + pose.centre
         return points, (self._others[others] - pose.centre) @ pose.turn
 
-    def _moved(self, pose: Pose) -> float:
+    def _moved(self, pose: Stance) -> float:
         """How far any point has moved at most since those in sight were chosen."""
         if self._from is None:
             return np.inf

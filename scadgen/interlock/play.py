@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from scadgen.interlock.assembly import Assembly, extreme_rows
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.path import united
-from scadgen.interlock.program import farthest
+from scadgen.interlock.program import Farthest
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["Loosest", "loosest", "measured"]
@@ -77,10 +77,10 @@ def loosest(
     """
     none = np.zeros((len(assembly.middles), 6))
     best = Loosest(0.0, none, (assembly.free[0], 0))
-    chosen = extreme_rows(assembly)
+    plays = _Plays(assembly)
     for part, number in tips or itertools.product(assembly.free, range(len(_DIRECTIONS))):
         goal = _goal(assembly, part, points[part], _DIRECTIONS[number])
-        x, chosen = _farthest(assembly, goal, chosen)
+        x = plays.farthest(goal)
         if x is None:
             return Loosest(np.inf, none, (part, number))
         if goal @ x > best.travel:
@@ -139,23 +139,38 @@ def _pose(middle: Floats, step: Floats) -> Floats:
     return np.column_stack([turn, middle + step[:3] - turn @ middle])
 
 
-def _farthest(assembly: Assembly, goal: Floats, chosen: Ints) -> tuple[Floats | None, Ints]:
-    """The x with A x >= -1 that goal . x is largest for, None where it has no end.
+class _Plays:
+    """The x with A x >= -1 that a goal . x is largest for, for one goal after the other.
 
-    Some rows are chosen to begin with; those that it took are given back, for the next goal.
+    Few rows are taken to begin with; others where a motion violates them.
     """
-    count = assembly.rows.shape[0]
-    while True:
-        found = farthest(goal, assembly.rows[chosen], 1.0, np.inf)
-        if found is None:
-            missing = np.setdiff1d(np.arange(count), chosen)
-            if not len(missing):
-                return None, chosen
-            chosen = np.union1d(chosen, missing[:: max(1, len(missing) // max(len(chosen), 1))])
-            continue
-        separation = assembly.rows @ found.x
-        violated = np.flatnonzero(separation < -1 - _TOLERANCE)
-        if not len(violated):
-            return found.x, chosen
-        worst = violated[np.argsort(separation[violated], kind="stable")][: _ADD * len(goal)]
-        chosen = np.union1d(chosen, worst)
+
+    def __init__(self, assembly: Assembly) -> None:
+        self._rows = assembly.rows
+        self._left = np.ones(self._rows.shape[0], dtype=np.bool_)
+        chosen = extreme_rows(assembly)
+        self._left[chosen] = False
+        self._program = Farthest(self._rows[chosen])
+
+    def farthest(self, goal: Floats) -> Floats | None:
+        """The motion; None where it has no end."""
+        self._program.aim(goal)
+        while True:
+            x = self._program.solve()
+            if x is None:
+                missing = np.flatnonzero(self._left)
+                if not len(missing):
+                    return None
+                taken = len(self._left) - len(missing)
+                self._add(missing[:: max(1, len(missing) // max(taken, 1))])
+                continue
+            separation = self._rows @ x
+            violated = np.flatnonzero((separation < -1 - _TOLERANCE) & self._left)
+            if not len(violated):
+                return x
+            worst = violated[np.argsort(separation[violated], kind="stable")]
+            self._add(worst[: _ADD * len(goal)])
+
+    def _add(self, rows: Ints) -> None:
+        self._left[rows] = False
+        self._program.add(self._rows[rows])

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from scadgen.interlock.cone import Walls, nearest
-from scadgen.interlock.scene import Pose, Scene
+from scadgen.interlock.scene import Scene, Stance
 from scadgen.solid.affine import Floats
 
 __all__ = ["Tree"]
@@ -44,9 +44,6 @@ _SPREAD = 0.15
 #: Of the others those that go or turn along a face's normal, and those up to which no more turn.
 _ALONG, _STRAIGHT = 0.2, 0.4
 
-#: Steps after which the search ends.
-_STEPS = 10000
-
 #: What a turn counts beside a shift by one size, per radian.
 _TURN = 0.4
 
@@ -55,7 +52,7 @@ _TURN = 0.4
 class _Node:
     """A pose that was reached, from another one, and how promising it is."""
 
-    pose: Pose
+    pose: Stance
     parent: int
     score: float
     clear: bool = False
@@ -81,19 +78,25 @@ class Tree:
 
     def __init__(self, scene: Scene, walls: Walls, random: np.random.Generator) -> None:
         self.scene, self.walls, self.random = scene, walls, random
-        self.nodes = [_Node(Pose(np.eye(3), scene.middle), 0, 0.0)]
+        self.nodes = [_Node(Stance(np.eye(3), scene.middle), 0, 0.0)]
         self.tries = self.steps = 0
         self.patience, self.kept = _PATIENCE, 0.0
         start = self.nodes[0].pose
         self.gap = min(max(self.walls.gap(start), 0.0), _MOST_KEPT * self.scene.size / _KEPT[1])
         self.near = float(self.scene.apart(start).max())
+        self._reached: tuple[float, float] = (0.0, 0.0)
 
     @property
     def hopeful(self) -> bool:
         """Whether another try may get farther."""
-        return self.patience > 0 and self.steps < _STEPS
+        return self.patience > 0
 
-    def grow(self) -> list[Pose] | None:
+    @property
+    def farthest(self) -> tuple[float, float]:
+        """How far poses are from the start at most: in mm, and in radians."""
+        return self._reached
+
+    def grow(self) -> list[Stance] | None:
         """Try once more: the poses of a clear way out, if that was one."""
         self.tries += 1
         self.patience -= 1
@@ -175,20 +178,24 @@ class Tree:
                 if not self.scene.free(pose):
                     break
                 self.nodes.append(_Node(pose, node, self._score(pose, out)))
+                self._reach(pose)
                 node = len(self.nodes) - 1
             if out > 0:
                 return True
         return False
 
-    def _step(self, pose: Pose, wanted: Floats) -> tuple[Pose, float] | None:
+    def _step(self, pose: Stance, wanted: Floats) -> tuple[Stance, float] | None:
         """The pose after a step, and its share of the length wanted; None where all is shut."""
         size, gap = self.scene.size, self.walls.gap(pose)
         length = max(_STEP * size, 0.8 * gap)
         step = length * wanted
         if gap < 2 * length:
-            step = nearest(step, *self.walls.rows(pose, self.kept), size)
+            step = nearest(step, *self.walls.rows(pose, self.kept - self.scene.allowed), size)
         share = float(np.linalg.norm(step)) / length
-        step, least = step / max(share / 1.5, 1.0), min(_SLACK * self.kept, gap)
+        step, least = (
+            step / max(share / 1.5, 1.0),
+            min(_SLACK * self.kept, gap) - self.scene.allowed,
+        )
         for _ in range(_HALVED):
             after = pose.moved(step, size)
             if self.walls.gap(after) >= least:
@@ -196,13 +203,19 @@ class Tree:
             step = step / 2
         return None
 
-    def _score(self, pose: Pose, out: float) -> float:
+    def _reach(self, pose: Stance) -> None:
+        """Note how far a pose is from the start."""
+        shift = float(np.linalg.norm(pose.centre - self.scene.middle))
+        turn = float(Rotation.from_matrix(pose.turn).magnitude())
+        self._reached = max(self._reached[0], shift), max(self._reached[1], turn)
+
+    def _score(self, pose: Stance, out: float) -> float:
         """How far a pose is from the start, and how much nearer to free."""
         gone = float(np.linalg.norm(pose.centre - self.scene.middle)) + out - self.near
         turned = float(Rotation.from_matrix(pose.turn).magnitude())
         return gone / self.scene.size + _TURN * turned
 
-    def _clear_way(self) -> list[Pose] | None:
+    def _clear_way(self) -> list[Stance] | None:
         """The way to the last pose, if it is clear; else what lies behind an overlap goes."""
         chain = [len(self.nodes) - 1]
         while chain[-1]:

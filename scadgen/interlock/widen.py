@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from scadgen.interlock.cone import Walls, nearest, widest
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.path import Path, narrowest
-from scadgen.interlock.scene import Pose, Scene
+from scadgen.interlock.scene import Scene, Stance
 from scadgen.solid.affine import Floats
 
 __all__ = ["widened"]
@@ -67,13 +67,13 @@ def widened(path: Path, moving: Sequence[Mesh], fixed: Sequence[Mesh], least: fl
     return best
 
 
-def _poses(path: Path, scene: Scene) -> list[Pose]:
+def _poses(path: Path, scene: Scene) -> list[Stance]:
     """Poses all along a path."""
     dense = path.dense(scene.size, _BETWEEN * scene.size)
-    return [Pose(p[:3, :3], p[:3, :3] @ scene.middle + p[:3, 3]) for p in dense]
+    return [Stance(p[:3, :3], p[:3, :3] @ scene.middle + p[:3, 3]) for p in dense]
 
 
-def _yielded(poses: Sequence[Pose], scene: Scene, walls: Walls, gap: float) -> list[Pose]:
+def _yielded(poses: Sequence[Stance], scene: Scene, walls: Walls, gap: float) -> list[Stance]:
     """All poses but the ends a little nearer to where they should be."""
     found = list(poses)
     for n in range(1, len(found) - 1):
@@ -87,7 +87,7 @@ def _yielded(poses: Sequence[Pose], scene: Scene, walls: Walls, gap: float) -> l
     return found
 
 
-def _between(pose: Pose, before: Pose, after: Pose, size: float) -> Floats:
+def _between(pose: Stance, before: Stance, after: Stance, size: float) -> Floats:
     """The step from a pose to half way between its neighbours."""
     shift = (before.centre + after.centre) / 2 - pose.centre
     here = Rotation.from_matrix(pose.turn).inv()

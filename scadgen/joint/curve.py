@@ -6,16 +6,17 @@ See ``docs/geometry.md``, step 2.  Lengths are in units of the side, angles in r
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import numpy as np
 
 from scadgen.joint.arms import Arms, Vectors, derivatives, way_of
+from scadgen.joint.site import Rough, slopes
 from scadgen.joint.weave import Weave
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.vectors import cross
 
-__all__ = ["SiteCurve", "distances", "nearest_curve", "slopes"]
+__all__ = ["SiteCurve"]
 
 #: Decimals of lengths along which arms follow the ring, in sides: rounding is no such length.
 _DECIMALS = 12
@@ -70,6 +71,11 @@ class SiteCurve:
         self._twice, self._squares = -2 * places.T, (places**2).sum(axis=1)
 
     @property
+    def name(self) -> str:
+        """What a message calls what it was made from."""
+        return f"weave {self.weave.name}"
+
+    @property
     def turn(self) -> Floats:
         """What turns rows ``(..., 3)`` from where its edge is +x to where it is, ``(3, 3)``."""
         along, across = np.cos(self.arms.angle), np.sin(self.arms.angle)
@@ -77,7 +83,7 @@ class SiteCurve:
 
     def points(self, u: Floats) -> Floats:
         """Points of the curve: ``u`` in [-1, 1], shape ``(...)``, gives ``(..., 3)``."""
-        one = _Curves([self])
+        one = _Curves((self,))
         return one.derivatives(np.zeros(u.shape, dtype=np.intp), u)[0].stacked()
 
     def distance(self, points: Floats) -> tuple[Floats, Floats]:
@@ -96,6 +102,10 @@ class SiteCurve:
             ``(k, 3) float``, unit vectors away from the nearest point.
         """
         return slopes([self], points, np.zeros(len(points), dtype=np.intp))
+
+    def together(self, sites: Sequence[SiteCurve]) -> _Curves:
+        """Site curves of one weave as one."""
+        return _Curves(sites)
 
     def from_sample(self, points: Floats) -> tuple[Floats, Floats]:
         """Distance from the nearest sample, ``(k,)``, no less than the curve's, and its parameter.
@@ -126,7 +136,7 @@ class SiteCurve:
     def _between_samples(self) -> tuple[float, float]:
         """Half the longest arc between two samples, in sides, and how much it bends at most."""
         u = np.linspace(-1.0, 1.0, (len(self._parameters) - 1) * _FINER + 1)
-        place, first, second = _Curves([self]).derivatives(np.zeros(len(u), dtype=np.intp), u)
+        place, first, second = _Curves((self,)).derivatives(np.zeros(len(u), dtype=np.intp), u)
         ways = np.linalg.norm(np.diff(place.stacked(), axis=0), axis=1)
         arc = float(ways.reshape(-1, _FINER).sum(axis=1).max()) / 2
         across = cross(first.stacked(), second.stacked())
@@ -134,96 +144,11 @@ class SiteCurve:
         return _SHARPER * arc, _SHARPER * float(bend.max())
 
 
-def distances(
-    curves: Sequence[SiteCurve], points: Floats, beyond: float | Floats = np.inf
-) -> Floats:
-    """Distance of points from each curve.
-
-    Parameters
-    ----------
-    curves
-        Site curves of one weave.
-    points
-        ``(..., 3) float``, in sides.
-    beyond
-        How much farther than the nearest curve another may be, in sides, for its distance to
-        be wanted, of all points or of each: of those that are farther it is a sample's, which is
-        no less.
-
-    Returns
-    -------
-    distances
-        ``(curves, ...) float``, in sides.
-    """
-    flat = points.reshape(-1, 3)
-    found, near = _sampled(curves, flat)
-    limit = found.min(axis=0) + np.broadcast_to(beyond, points.shape[:-1]).ravel()
-    which, row = np.nonzero(_least(curves, found) <= limit)
-    away = _together(tuple(curves)).away(which, flat.take(row, axis=0), near[which, row])
-    found[which, row] = np.sqrt(away.dot(away))
-    return found.reshape(len(curves), *points.shape[:-1])
-
-
-def nearest_curve(curves: Sequence[SiteCurve], points: Floats) -> Ints:
-    """Which curve each point is nearest to, ``(...)``.
-
-    Parameters
-    ----------
-    curves, points
-        As for `distances`.
-    """
-    flat = points.reshape(-1, 3)
-    found, _ = _sampled(curves, flat)
-    nearest = np.asarray(found.argmin(axis=0))
-    # Mostly the samples of one curve alone are near enough.
-    contested = np.flatnonzero((_least(curves, found) <= found.min(axis=0)).sum(axis=0) > 1)
-    nearest[contested] = distances(curves, flat.take(contested, axis=0), beyond=0.0).argmin(axis=0)
-    return nearest.reshape(points.shape[:-1])
-
-
-def _sampled(curves: Sequence[SiteCurve], points: Floats) -> tuple[Floats, Floats]:
-    """Distances from the nearest samples of curves, and their parameters, ``(curves, k)``."""
-    found, near = zip(*(curve.from_sample(points) for curve in curves), strict=True)
-    return np.stack(found), np.stack(near)
-
-
-def _least(curves: Sequence[SiteCurve], found: Floats) -> Floats:
-    """What points are from curves at least, ``(curves, k)``, by the distance from their samples."""
-    return np.stack([curve.at_least(far) for curve, far in zip(curves, found, strict=True)])
-
-
-def slopes(curves: Sequence[SiteCurve], points: Floats, which: Ints) -> tuple[Floats, Floats]:
-    """Distance of each point from a curve of its own, and its gradient.
-
-    Parameters
-    ----------
-    curves
-        Site curves of one weave.
-    points
-        ``(k, 3) float``, in sides.
-    which
-        ``(k,) int``: the number of each point's curve.
-
-    Returns
-    -------
-    distance
-        ``(k,) float``.
-    gradient
-        ``(k, 3) float``, unit vectors away from the nearest point.
-    """
-    near = np.empty(len(points))
-    for number, curve in enumerate(curves):
-        mine = np.flatnonzero(which == number)
-        near[mine] = curve.from_sample(points.take(mine, axis=0))[1]
-    away = _together(tuple(curves)).away(which, points, near)
-    distance = np.sqrt(away.dot(away))
-    return distance, away.stacked() / np.maximum(distance, np.finfo(float).tiny)[:, None]
-
-
 class _Curves:
     """Site curves of one weave, for points each of which has one of them."""
 
     def __init__(self, curves: Sequence[SiteCurve]) -> None:
+        self._curves = curves
         self._weave = curves[0].weave
         arms = zip(*(curve.arms for curve in curves), strict=True)
         self._arms = Arms(*(np.stack(each) for each in arms))
@@ -240,10 +165,23 @@ class _Curves:
         """Position, first and second derivative by ``u``."""
         return derivatives(self._weave, self._arms.of(which, (u >= 0).astype(np.intp)), u)
 
-    def away(self, which: Ints, points: Floats, u: Floats) -> Vectors:
-        """The way to points from the nearest ones of their curves, which are near ``u``."""
+    def roughly(self, which: Ints, points: Floats) -> Rough:
+        """Bounds of distances by the curves' samples, and the parameters of the nearest."""
+        rough = Rough(*np.empty((3, len(points))))
+        for number, curve in enumerate(self._curves):
+            mine = np.flatnonzero(which == number)
+            most, start = curve.from_sample(points.take(mine, axis=0))
+            rough.least[mine], rough.most[mine], rough.start[mine] = (
+                curve.at_least(most),
+                most,
+                start,
+            )
+        return rough
+
+    def away(self, which: Ints, points: Floats, start: Floats) -> Floats:
+        """The way to points from the nearest ones of their curves, near their samples."""
         target = Vectors(points[:, 0] + 1j * points[:, 1], points[:, 2])
-        u, (low, high) = u.copy(), self._around(which, target, u)
+        u, (low, high) = start.copy(), self._around(which, target, start)
         away = Vectors(np.empty(len(u), dtype=np.complex128), np.empty(len(u)))
         left = np.arange(len(u))
         for _ in range(_STEPS):
@@ -262,7 +200,7 @@ class _Curves:
             left = left[moving]
             if not len(left):
                 break
-        return away
+        return away.stacked()
 
     def _around(self, which: Ints, points: Vectors, u: Floats) -> tuple[Floats, Floats]:
         """Between what the nearest points are sought."""
@@ -275,9 +213,3 @@ class _Curves:
             low = np.where(bent & ahead, np.maximum(low, 0.0), low)
             high = np.where(bent & ~ahead, np.minimum(high, 0.0), high)
         return low, high
-
-
-@lru_cache(maxsize=4)
-def _together(curves: tuple[SiteCurve, ...]) -> _Curves:
-    """The same curves, which are asked for again and again."""
-    return _Curves(curves)

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from scadgen.joint.curve import SiteCurve, slopes
 from scadgen.joint.domain import OUTSIDE, Domain
+from scadgen.joint.site import Site, slopes
 from scadgen.joint.walls import Feature, Wedge
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.vectors import cross
@@ -25,7 +25,7 @@ _DECIMALS = 9
 def fanned(
     walls: Sequence[Wedge],
     position: dict[Feature, Floats],
-    curves: Sequence[SiteCurve],
+    curves: Sequence[Site],
     domain: Domain,
 ) -> list[Wedge]:
     """The polygons, each starting at the corner from which it is to be cut into a fan.
@@ -48,9 +48,7 @@ def fanned(
     return result
 
 
-def _scores(
-    corners: Floats, labels: Ints, curves: Sequence[SiteCurve], domain: Domain
-) -> list[Floats]:
+def _scores(corners: Floats, labels: Ints, curves: Sequence[Site], domain: Domain) -> list[Floats]:
     """How bad it is to cut ``(p, k, 3)`` polygons from each corner, ``(p, k)``; compared in order.
 
     Whether a triangle folds back or leaves the domain, how far the diagonals' middles are from the
@@ -85,9 +83,7 @@ def _folds(corners: Floats) -> Floats:
     return np.asarray((upright.min(axis=1) < _FOLD) * 1.0)
 
 
-def _distance_from_wall(
-    points: Floats, low: Ints, high: Ints, curves: Sequence[SiteCurve]
-) -> Floats:
+def _distance_from_wall(points: Floats, low: Ints, high: Ints, curves: Sequence[Site]) -> Floats:
     """Distance of points from the wall between two labels, to first order."""
     (near, toward), (far, away) = (slopes(curves, points, which) for which in (low, high))
     steep = np.linalg.norm(toward - away, axis=1)

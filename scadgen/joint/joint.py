@@ -14,6 +14,7 @@ from scadgen.joint.fan import fanned
 from scadgen.joint.lattice import Lattice, make_lattice, without_corners
 from scadgen.joint.pieces import SPLIT, halves
 from scadgen.joint.place import beside_walls, place
+from scadgen.joint.site import Site
 from scadgen.joint.spokes import Spokes
 from scadgen.joint.surface import Surface, half_turn, join, simplify
 from scadgen.joint.symmetry import lopsided
@@ -224,7 +225,7 @@ def make_joint(
     )
 
 
-def check_footprint(lattice: Lattice, curves: Sequence[SiteCurve], edge: int) -> None:
+def check_footprint(lattice: Lattice, curves: Sequence[Site], edge: int) -> None:
     """Prove that a tube's face belongs to its connector alone.
 
     Raises
@@ -238,7 +239,7 @@ def check_footprint(lattice: Lattice, curves: Sequence[SiteCurve], edge: int) ->
         return
     grid = np.stack(np.meshgrid([0.0], *[np.linspace(-0.5, 0.5, 41)] * 2), axis=-1).reshape(-1, 3)
     msg = (
-        f"weave {curves[edge].weave.name}: only "
+        f"{curves[edge].name}: only "
         f"{share(curves, edge, (middle + grid) @ face.axes):.1%} of a tube's face "
         "belongs to its own connector; a smaller span or a smaller bend helps"
     )

@@ -14,8 +14,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from scadgen.joint.curve import SiteCurve, distances, slopes
 from scadgen.joint.lattice import Lattice
+from scadgen.joint.site import Site, nearest_site, slopes
 from scadgen.joint.walls import Feature
 from scadgen.solid.affine import Floats, Ints
 
@@ -31,24 +31,39 @@ _STILL = 1e-8
 _STRAY = 0.5
 
 
-def beside_walls(lattice: Lattice, curves: Sequence[SiteCurve]) -> Floats:
+def beside_walls(lattice: Lattice, curves: Sequence[Site]) -> Floats:
     """Distances of the lattice's nodes from the curves, for labels and for `place`.
 
     Where a wall crosses an edge of the lattice, both curves' distances at both of its ends are
-    wanted.  The difference of two distances changes by at most twice the way along an edge, so
-    that at a node neither is farther than the nearest by more than twice its longest edge.
+    exact.  All others are infinite, but for the nearest's, which is some number.
 
     Returns
     -------
     distances
-        ``(curves, planes, radii, heights) float``, as `distances` gives them.
+        ``(curves, planes, radii, heights) float``.
     """
-    return distances(curves, lattice.nodes, 2 * lattice.longest_edges()[:, None, None])
+    labels = nearest_site(curves, lattice.nodes)
+    far = np.full((len(curves), labels.size), np.inf)
+    number = np.arange(labels.size).reshape(labels.shape)
+    far[labels.ravel(), number.ravel()] = 0.0
+    wanted = np.zeros(far.shape, dtype=np.bool_)
+    for axis in range(3):
+        # Only the angle closes on itself.
+        some = slice(None) if axis == 0 else slice(-1)
+        ends = [
+            np.moveaxis(np.roll(number, -shift, axis), axis, 0)[some].ravel() for shift in (0, 1)
+        ]
+        first, second = (labels.ravel()[end] for end in ends)
+        crossed = first != second
+        for end in ends:
+            for label in (first, second):
+                wanted[label[crossed], end[crossed]] = True
+    which, node = np.nonzero(wanted)
+    far[which, node], _ = slopes(curves, lattice.nodes.reshape(-1, 3).take(node, axis=0), which)
+    return far.reshape(len(curves), *labels.shape)
 
 
-def place(
-    lattice: Lattice, curves: Sequence[SiteCurve], far: Floats, keys: Sequence[Feature]
-) -> Floats:
+def place(lattice: Lattice, curves: Sequence[Site], far: Floats, keys: Sequence[Feature]) -> Floats:
     """Positions of vertices.
 
     Parameters
@@ -131,9 +146,7 @@ def _basis(corners: Floats, dimensions: int) -> Floats:
     return np.stack([first, second / np.linalg.norm(second, axis=1)[:, None]], axis=1)
 
 
-def _meet(
-    curves: Sequence[SiteCurve], seen: NDArray[np.bool_], start: Floats, basis: Floats
-) -> Floats:
+def _meet(curves: Sequence[Site], seen: NDArray[np.bool_], start: Floats, basis: Floats) -> Floats:
     """Points nearest the start, within the basis, equally far from all curves seen, if any."""
     points = start.copy()
     reference = seen.argmax(axis=1)
@@ -162,7 +175,7 @@ def _shortest_steps(rows: Floats, excess: Floats) -> Floats:
 
 
 def _seen_distances(
-    curves: Sequence[SiteCurve], points: Floats, seen: NDArray[np.bool_]
+    curves: Sequence[Site], points: Floats, seen: NDArray[np.bool_]
 ) -> tuple[Floats, Floats]:
     """Distances from the curves seen, and their gradients; zero from others."""
     far, slope = np.zeros(seen.shape), np.zeros((*seen.shape, 3))

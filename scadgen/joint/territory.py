@@ -12,8 +12,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from scadgen.joint.curve import SiteCurve, distances, nearest_curve
 from scadgen.joint.lattice import Lattice
+from scadgen.joint.site import Site, distances, nearest_site
 from scadgen.solid.affine import Floats
 
 __all__ = ["arm", "belongs", "share"]
@@ -26,7 +26,7 @@ _ROUNDING = 1e-9
 
 
 def belongs(
-    curves: Sequence[SiteCurve],
+    curves: Sequence[Site],
     own: int,
     low: Floats,
     high: Floats,
@@ -65,18 +65,18 @@ def belongs(
     return False
 
 
-def share(curves: Sequence[SiteCurve], own: int, points: Floats) -> float:
+def share(curves: Sequence[Site], own: int, points: Floats) -> float:
     """Share of points that are in a curve's cell."""
-    return float((nearest_curve(curves, points) == own).mean())
+    return float((nearest_site(curves, points) == own).mean())
 
 
-def _lead(curves: Sequence[SiteCurve], own: int, points: Floats, most: float) -> Floats:
+def _lead(curves: Sequence[Site], own: int, points: Floats, most: float) -> Floats:
     """How much nearer points are to their own curve than to any other, exact up to the most."""
     far = distances(curves, points, most)
     return np.asarray(np.delete(far, own, axis=0).min(axis=0) - far[own])
 
 
-def arm(lattice: Lattice, curves: Sequence[SiteCurve], edge: int, walls: Floats) -> float:
+def arm(lattice: Lattice, curves: Sequence[Site], edge: int, walls: Floats) -> float:
     """Thinnest place of a connector's arms between its edge and its walls.
 
     At each plane of the lattice, the widest ball that is known to fit into the arm there: its

@@ -14,9 +14,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from scadgen.joint.curve import SiteCurve, nearest_curve
 from scadgen.joint.domain import OUTSIDE, Domain
 from scadgen.joint.lattice import Lattice
+from scadgen.joint.site import Site, nearest_site
 from scadgen.joint.walls import Facet, Feature, Wedge
 from scadgen.solid.affine import Floats, Ints
 
@@ -41,7 +41,7 @@ _SHORT = 0.5
 _RANK = {"cell": 0, "face": 1, "edge": 2}
 
 
-def corners_in_the_way(lattice: Lattice, curves: Sequence[SiteCurve]) -> NDArray[np.bool_]:
+def corners_in_the_way(lattice: Lattice, curves: Sequence[Site]) -> NDArray[np.bool_]:
     """Corners of the outlines that walls would slide across when they draw back.
 
     Returns
@@ -64,12 +64,12 @@ def corners_in_the_way(lattice: Lattice, curves: Sequence[SiteCurve]) -> NDArray
     return np.stack(dropped)
 
 
-def _labels_beside(lines: Floats, curves: Sequence[SiteCurve], room: float) -> Ints:
+def _labels_beside(lines: Floats, curves: Sequence[Site], room: float) -> Ints:
     """Nearest curves to either side of points ``(n, heights, 3)``, ``(n, 2, heights)``."""
     plan = (lines[..., 0] + 1j * lines[..., 1])[:, None]
     plan = plan * np.exp(1j * np.array([-room, room])[:, None] / np.abs(plan))
     height = np.broadcast_to(lines[:, None, :, 2], plan.shape)
-    return nearest_curve(curves, np.stack([plan.real, plan.imag, height], axis=-1))
+    return nearest_site(curves, np.stack([plan.real, plan.imag, height], axis=-1))
 
 
 def merge_short_sides(

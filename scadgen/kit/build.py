@@ -9,21 +9,22 @@ from dataclasses import replace
 import numpy as np
 
 from scadgen.errors import InputError, InvariantError
-from scadgen.frame.graph import make_frame
-from scadgen.frame.kinds import Kind, Kinds, Shape
+from scadgen.frame.kinds import Kind, Kinds
+from scadgen.frame.template import Template
 from scadgen.joint.symmetry import Symmetry
 from scadgen.joint.weave import Weave
+from scadgen.kit.arrangement import Arrangement
+from scadgen.kit.compute import JointSpec, compute_joints
 from scadgen.kit.model import Kit, Vertex
 from scadgen.kit.pieces import Pieces, best_pieces
-from scadgen.kit.places import Places
 from scadgen.kit.ranges import check_values
 from scadgen.kit.repeat import cells_of
 from scadgen.kit.request import Request, default_values
 from scadgen.kit.room import room
 from scadgen.kit.sizing import WIDER, Design, design
 from scadgen.kit.solids import Solids
-from scadgen.kit.wanted import Wanted, wanted_pieces
-from scadgen.work.each import Means
+from scadgen.plane.drawn import make_frame
+from scadgen.work.mapping import Execution
 
 __all__ = ["Request", "build", "build_joint", "laid_out"]
 
@@ -33,7 +34,7 @@ _DECIMALS = 9
 
 def build(
     request: Request,
-    means: Means | None = None,
+    means: Execution | None = None,
     done: Callable[[int, int], None] = lambda *_: None,
 ) -> Kit:
     """Make a kit.
@@ -59,7 +60,7 @@ def build(
     if request.tiling is None:
         made.check_room(request)
     wanted = [_wanted(request, made, number) for number in range(len(made.weaves))]
-    pieces = wanted_pieces(wanted, means or Means(), lambda count: done(count, len(wanted)))
+    pieces = compute_joints(wanted, means or Execution(), lambda count: done(count, len(wanted)))
     lengths = (made.same.lengths / made.unit).round(_DECIMALS)
     solids = Solids(made.kinds, made.frame.edges, lengths, pieces, request.regular)
     limits = solids.limits()
@@ -69,7 +70,7 @@ def build(
     if request.tiling is None:
         _check_room(request, made, pieces, values)
     check_values(limits, values)
-    places = Places(solids, made.frame.vertices / made.unit)
+    places = Arrangement(solids, made.frame.plan / made.unit)
     kit = Kit(
         name=request.name,
         key=request.key,
@@ -141,7 +142,7 @@ def build_joint(valence: int, weave: Weave, key: str, detail: str) -> Kit:
         The weave makes no sound pieces.
     """
     directions = 2 * np.pi * np.arange(valence) / valence
-    shape = Shape(directions, Symmetry(valence, 1, 0))
+    shape = Template.level(directions, Symmetry(valence, 1, 0))
     none, no_edges = np.zeros(0), np.zeros((0, 2), dtype=np.int64)
     no_kind = none.astype(np.int64)
     kinds = Kinds((shape,), (Kind(0, (0,), ()),), no_kind, none > 0, none, no_edges)
@@ -153,13 +154,13 @@ def build_joint(valence: int, weave: Weave, key: str, detail: str) -> Kit:
     least = max(r.low(values) for r in limits if r.parameter == "edge_length")
     values["edge_length"] = max(6, math.ceil(least / request.side + 1)) * request.side
     check_values(limits, values)
-    joint = Places(solids, np.zeros((0, 2))).joint(0)
+    joint = Arrangement(solids, np.zeros((0, 2))).joint(0)
     return Kit("joint", key, detail, "", values, limits, solids.parts(), (joint,), None, (), ())
 
 
-def _wanted(request: Request, made: Design, number: int) -> Wanted:
+def _wanted(request: Request, made: Design, number: int) -> JointSpec:
     """The joint whose pieces all joints of one kind have."""
-    return Wanted(
+    return JointSpec(
         tuple(made.kinds.shape(number).directions.tolist()),
         made.weaves[number],
         request.key,

@@ -25,7 +25,7 @@ __all__ = [
     "CellPiece",
     "CellVertex",
     "Cells",
-    "Laid",
+    "Layout",
     "check_cells",
     "present",
 ]
@@ -106,7 +106,7 @@ class CellVertex:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Laid:
+class Layout:
     """What stands in rows and columns.
 
     Parameters
@@ -149,7 +149,7 @@ class Cells:
     vertices: tuple[CellVertex, ...]
     pieces: tuple[CellPiece, ...]
 
-    def laid(self, rows: int, columns: int) -> Laid:
+    def laid(self, rows: int, columns: int) -> Layout:
         """What stands in so many cells up and across.
 
         Raises
@@ -170,7 +170,7 @@ class Cells:
         edges = sorted({_edge(p) for p in placed if len(p.ends) == 2})
         edge_number = {edge: n for n, edge in enumerate(edges)}
         elements = (replace(p, edge=edge_number[_edge(p)]) for p in placed if len(p.ends) == 2)
-        return Laid(
+        return Layout(
             np.array([found[key].at for key in keys]),
             np.array(edges, dtype=np.int64).reshape(-1, 2),
             tuple((self.vertices[key[0]].joint, found[key]) for key in keys),

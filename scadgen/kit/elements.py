@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from scadgen.frame.alike import Slots
+from scadgen.frame.element_classes import Slots
 from scadgen.frame.kinds import Kinds
 from scadgen.solid.affine import Floats, Ints
 

@@ -11,13 +11,13 @@ from dataclasses import dataclass, field
 
 from scadgen.element.squares import Key
 from scadgen.errors import InvariantError
-from scadgen.frame.catalogue import NamedTiling
 from scadgen.frame.graph import Frame
-from scadgen.frame.keys import Refused
 from scadgen.frame.placement import Placement
+from scadgen.frame.slots import Refused
 from scadgen.interlock.path import Path
 from scadgen.kit.cells import Cells
 from scadgen.kit.live import PARAMETERS
+from scadgen.plane.catalogue import NamedTiling
 from scadgen.solid.affine import AffineSolid, Range
 from scadgen.solid.pose import Pose
 

@@ -19,8 +19,8 @@ from scipy.spatial import cKDTree
 from scadgen.element.pieces import Piece
 from scadgen.element.squares import Key
 from scadgen.errors import InvariantError
-from scadgen.frame.alike import Slots
-from scadgen.frame.sameness import joint_name
+from scadgen.frame.classes import joint_name
+from scadgen.frame.element_classes import Slots
 from scadgen.joint.symmetry import Symmetry
 from scadgen.kit.pieces import Pieces
 from scadgen.solid.affine import Floats

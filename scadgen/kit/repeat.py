@@ -7,10 +7,10 @@ from functools import cached_property
 
 import numpy as np
 
-from scadgen.frame.periodic import Block
 from scadgen.frame.placement import Placement
+from scadgen.kit.arrangement import Arrangement
 from scadgen.kit.cells import Cell, CellEnd, CellPiece, Cells, CellVertex
-from scadgen.kit.places import Places
+from scadgen.plane.periodic import Block
 from scadgen.solid.affine import Floats
 from scadgen.solid.pose import Pose
 
@@ -20,7 +20,7 @@ __all__ = ["cells_of"]
 _DECIMALS, _AXES = 9, 6
 
 
-def cells_of(places: Places, block: Block, unit: float) -> Cells | None:
+def cells_of(places: Arrangement, block: Block, unit: float) -> Cells | None:
     """What stands in each cell of a tiling.
 
     Vertices at the rim of the block are as those inside, whatever stands there in the block.
@@ -46,7 +46,7 @@ def cells_of(places: Places, block: Block, unit: float) -> Cells | None:
 class _Repeat:
     """The vertices and edges of a block that stand for all that are alike."""
 
-    def __init__(self, places: Places, block: Block, unit: float) -> None:
+    def __init__(self, places: Arrangement, block: Block, unit: float) -> None:
         self._places, self._block, self._motif = places, block, block.tiling.motif
         self._unit = unit
         self._cell_of: list[Cell] = [(i, j) for _, i, j in block.vertex_of.tolist()]

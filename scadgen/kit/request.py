@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from scadgen.errors import InputError
-from scadgen.frame.catalogue import NamedTiling
 from scadgen.frame.graph import Frame
-from scadgen.frame.keys import Refused
 from scadgen.frame.placement import KEYS
+from scadgen.frame.slots import Refused
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.weave import Weave
 from scadgen.kit.cells import check_cells
@@ -19,6 +18,7 @@ from scadgen.kit.model import RIMS
 from scadgen.kit.parameter import Settings, Tightest
 from scadgen.kit.pieces import Pieces
 from scadgen.kit.ranges import check_values
+from scadgen.plane.catalogue import NamedTiling
 from scadgen.solid.affine import Range
 
 __all__ = ["Request", "default_values"]

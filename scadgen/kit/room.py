@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 from scadgen.errors import GeometryError
 from scadgen.frame.graph import Frame
 from scadgen.frame.kinds import Kinds
-from scadgen.frame.planarity import more
+from scadgen.frame.words import more
 from scadgen.joint.joint import DETAILS
 from scadgen.joint.lattice import make_lattice
 from scadgen.joint.spokes import Spokes
-from scadgen.kit.apart import Apart
 from scadgen.kit.live import CLEARANCE, peg_length
 from scadgen.kit.ranges import SIDE, TUBE
+from scadgen.plane.spacing import Spacing
 from scadgen.solid.affine import Floats
 
 __all__ = ["Room", "reaches", "room"]
@@ -53,7 +53,7 @@ class Room:
     sockets: NDArray[np.int64]
     through: float
     values: Mapping[str, float]
-    apart: Apart
+    apart: Spacing
 
     def missing(self, side: float) -> Floats:
         """What each edge is too short by: ``(m,) float``, at least 0, in mm.
@@ -181,7 +181,7 @@ def room(
     )
     starts = np.where(split, reach[kind, 1], reach[kind, 0]).sum(axis=1)
     through = float((reach[:, 0] - reach[:, 1]).max())
-    apart = Apart(frame, rings[kinds.kind_of])
+    apart = Spacing(frame, rings[kinds.kind_of])
     return Room(frame, starts, split.sum(axis=1), through, values, apart)
 
 

@@ -8,17 +8,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from scadgen.errors import GeometryError, InputError, InvariantError
-from scadgen.frame.graph import Frame, make_frame
+from scadgen.frame.classes import Classes, classify
+from scadgen.frame.graph import Frame
 from scadgen.frame.joints import least_scale
 from scadgen.frame.kinds import Kinds, choose_kinds
-from scadgen.frame.periodic import Block
-from scadgen.frame.planarity import corner
-from scadgen.frame.sameness import Sameness, sameness
+from scadgen.frame.words import corner
 from scadgen.joint.weave import Weave, any_joint, built_in
-from scadgen.kit.apart import Apart
 from scadgen.kit.ranges import LONGEST, SIDE, check_values
 from scadgen.kit.request import Request
 from scadgen.kit.room import reaches, room
+from scadgen.plane.drawn import make_frame
+from scadgen.plane.periodic import Block
+from scadgen.plane.spacing import Spacing
 from scadgen.solid.affine import Floats
 
 __all__ = ["WIDER", "Design", "design", "growth"]
@@ -60,7 +61,7 @@ class Design:
 
     frame: Frame
     block: Block | None
-    same: Sameness
+    same: Classes
     kinds: Kinds
     weaves: tuple[Weave, ...]
 
@@ -153,12 +154,12 @@ def _drawn(request: Request, scale: float = 1.0) -> tuple[Frame, Block | None]:
         raise InvariantError(msg)
     frame = request.frame
     if scale != 1.0:
-        frame = make_frame(frame.name, frame.vertices * scale, frame.edges, frame.numbering)
+        frame = make_frame(frame.name, frame.plan * scale, frame.edges, frame.numbering)
     return frame, None
 
 
 def _designed(request: Request, frame: Frame, block: Block | None) -> Design:
-    same = sameness(frame)
+    same = classify(frame)
     kinds = choose_kinds(
         frame,
         same,
@@ -170,7 +171,7 @@ def _designed(request: Request, frame: Frame, block: Block | None) -> Design:
     return Design(frame, block, same, kinds, weaves)
 
 
-def _shortest(same: Sameness) -> float:
+def _shortest(same: Classes) -> float:
     """Length of the shortest edges, in mm, as their parts have it."""
     return min(edge.length for edge in same.edges)
 
@@ -180,7 +181,7 @@ def _needed(request: Request, found: Design) -> float:
     side, shortest = request.side, _shortest(found.same)
     need = shortest * least_scale(found.frame, side, found.rings, _ROOM[request.key])
     if not request.regular:  # whose joints keep apart if their edges are long enough
-        need = max(need, shortest * Apart(found.frame, found.rings + WIDER[-1]).least_scale(side))
+        need = max(need, shortest * Spacing(found.frame, found.rings + WIDER[-1]).least_scale(side))
     return max(6, math.ceil(need / side - 1e-9)) * side
 
 

@@ -15,10 +15,8 @@ from typing import Any, NoReturn
 
 from scadgen import __version__
 from scadgen.errors import InputError, InvariantError, KitError
-from scadgen.frame.catalogue import NamedTiling
-from scadgen.frame.graph import make_frame
-from scadgen.frame.keys import Refused
 from scadgen.frame.placement import bill
+from scadgen.frame.slots import Refused
 from scadgen.kit.bill import as_json, with_bill
 from scadgen.kit.build import laid_out
 from scadgen.kit.entries import (
@@ -37,7 +35,9 @@ from scadgen.kit.entries import (
 from scadgen.kit.live import PARAMETERS
 from scadgen.kit.model import Kit, Vertex
 from scadgen.kit.ranges import check_values
-from scadgen.kit.sense import check_sense
+from scadgen.kit.validate import validate
+from scadgen.plane.catalogue import NamedTiling
+from scadgen.plane.drawn import make_frame
 from scadgen.solid.affine import Linear, Range
 
 __all__ = ["FORMAT", "VERSION", "dumps", "load", "loads", "summary"]
@@ -70,7 +70,7 @@ def dumps(kit: Kit) -> str:
     elif kit.frame is not None:
         document["frame"] = {
             "name": kit.frame.name,
-            "vertices": kit.frame.vertices.tolist(),
+            "vertices": kit.frame.plan.tolist(),
             "edges": kit.frame.edges.tolist(),
         }
         document["vertices"] = [{"joint": v.joint} | pose_entry(v.pose) for v in kit.vertices]
@@ -151,7 +151,7 @@ def loads(text: str) -> Kit:
         if missing := {*kit.values} - {r.parameter for r in kit.ranges}:
             _refuse(f"no range for {', '.join(sorted(missing))}")
         check_values(kit.ranges, kit.values)
-        check_sense(kit, document)
+        validate(kit, document)
         kit = with_bill(kit, document["bill_of_materials"])
     except (InputError, InvariantError, ValueError, KeyError, TypeError, OverflowError) as error:
         _refuse(str(error))

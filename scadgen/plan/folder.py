@@ -7,7 +7,7 @@ from pathlib import Path
 
 from scadgen.emit.folder import PLAN_FILES
 from scadgen.emit.staged import Sort, check_target, write_all
-from scadgen.plan.told import FORMAT
+from scadgen.plan.as_json import FORMAT
 
 __all__ = ["check_plan_folder", "write_plan"]
 

@@ -18,21 +18,21 @@ import numpy as np
 
 from scadgen.check.proof import proved
 from scadgen.errors import GeometryError, InputError, JointError
-from scadgen.frame.keys import Refused
-from scadgen.frame.planarity import corner
+from scadgen.frame.slots import Refused
+from scadgen.frame.words import corner
 from scadgen.kit.build import Request, build
 from scadgen.kit.model import Joint, Kit
 from scadgen.plan.standing import stand
 from scadgen.plan.whole import parting_joints
 from scadgen.work.cache import Cache
-from scadgen.work.each import Means
+from scadgen.work.mapping import Execution
 
 __all__ = ["proved_kit"]
 
 
 def proved_kit(
     request: Request,
-    means: Means | None = None,
+    means: Execution | None = None,
     done: Callable[[int, int], None] = lambda *_: None,
     say: Callable[[str], None] = lambda _: None,
 ) -> Kit:
@@ -58,7 +58,7 @@ def proved_kit(
         A joint is not proved, whichever of its connectors are split: says where.  That the
         frame holds is only preferred; its plan proves it.
     """
-    with _kept(means or Means()) as kept:
+    with _kept(means or Execution()) as kept:
         if request.regular:
             return proved(build(request, kept, done), kept, say)
         return _Keyed(kept, done, say).held(request)
@@ -68,7 +68,7 @@ def proved_kit(
 class _Keyed:
     """Who makes kits of frames, and who is told."""
 
-    means: Means
+    means: Execution
     done: Callable[[int, int], None]
     say: Callable[[str], None]
 
@@ -140,7 +140,7 @@ def _is_among(refused: Sequence[Refused], joint: Joint) -> bool:
 
 
 @contextmanager
-def _kept(means: Means) -> Iterator[Means]:
+def _kept(means: Execution) -> Iterator[Execution]:
     """The same, with a place to keep what is not to be done twice."""
     if means.cache:
         yield means

@@ -9,7 +9,7 @@ import numpy as np
 from scadgen.plan.model import Move, Plan
 from scadgen.solid.affine import Floats
 
-__all__ = ["Motion", "joints_of", "motion_of", "towards"]
+__all__ = ["Arrival", "joints_of", "motion_of", "towards"]
 
 #: The last of a way in, and a rise that counts, in sides.
 _LAST, _RISE = 0.5, 0.5
@@ -25,7 +25,7 @@ _TILT = 20.0
 
 
 @dataclass(frozen=True, slots=True)
-class Motion:
+class Arrival:
     """How something goes in.
 
     Parameters
@@ -48,7 +48,7 @@ class Motion:
         return not self.above
 
 
-def motion_of(plan: Plan, move: Move) -> Motion:
+def motion_of(plan: Plan, move: Move) -> Arrival:
     """How a move goes in: its way out, backwards.
 
     Parameters
@@ -66,7 +66,7 @@ def motion_of(plan: Plan, move: Move) -> Motion:
     flat = np.hypot(x, y) > _FLAT * abs(z)
     rise = float(move.origin.turn(gone[-1])[2])
     spin = np.linalg.norm(way.steps()[:, 3:], axis=1).max()
-    return Motion(
+    return Arrival(
         above=int(np.sign(rise)) if abs(rise) >= _RISE * side else 0,
         towards=_seen_from_above(move.origin.turn([-x, -y, 0.0])) if flat else None,
         tilted=bool(np.degrees(spin) >= _TILT),

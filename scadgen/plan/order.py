@@ -29,8 +29,8 @@ from scadgen.plan.choice import Choice, cut_ways, reflected
 from scadgen.plan.model import Move, Plan, Step
 from scadgen.plan.proof import Found, Prover
 from scadgen.plan.rows import Rows
-from scadgen.plan.search import Search
-from scadgen.plan.standing import Site, Standing, stand
+from scadgen.plan.search import WaySearch
+from scadgen.plan.standing import Standing, StandingJoint, stand
 from scadgen.plan.trees import Trees
 
 __all__ = ["make_plan"]
@@ -70,7 +70,7 @@ class _Planner:
         self._standing, self._say = standing, say
         self._side, self._unit = standing.kit.values["side"], standing.kit.values["edge_length"]
         self._prover = Prover(standing)
-        self._search = Search(standing, self._prover)
+        self._search = WaySearch(standing, self._prover)
         self._tables: list[set[int]] = [set(range(len(standing.kit.placements)))]
         self._steps: list[Step] = []
         self._done = self._told = 0
@@ -132,7 +132,7 @@ class _Planner:
                 return move
         return self._lifted(choice, search=True)
 
-    def _own(self, site: Site, way: Way, roles: tuple[str, ...]) -> bool:
+    def _own(self, site: StandingJoint, way: Way, roles: tuple[str, ...]) -> bool:
         """Whether a way is of pieces with these roles, all of them parts of their own."""
         pieces = site.kind.pieces
         parts = {site.parts[n] for n in way.moving}

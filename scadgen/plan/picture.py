@@ -12,12 +12,12 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from scadgen.plan.annotations import STYLE, arrow, joint_mark, legend, rise_mark
+from scadgen.plan.figure import Shown, ahead
 from scadgen.plan.labels import Labels
-from scadgen.plan.marks import STYLE, arrow, joint_mark, legend, rise_mark
 from scadgen.plan.model import Plan
 from scadgen.plan.outlines import Outlines
-from scadgen.plan.shown import Shown, ahead
-from scadgen.plan.words import title
+from scadgen.plan.text import title
 from scadgen.solid.affine import Floats
 
 __all__ = ["step_pictures"]

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
-from scadgen.check.ways import LEAST, LOOK
+from scadgen.check.disassembly import LEAST, LOOK
 from scadgen.frame.placement import Placement
 from scadgen.interlock.contacts import Mesh
 from scadgen.interlock.path import Path

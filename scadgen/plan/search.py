@@ -11,13 +11,13 @@ from scadgen.plan.choice import Choice
 from scadgen.plan.proof import Prover
 from scadgen.plan.standing import Standing
 
-__all__ = ["Search"]
+__all__ = ["WaySearch"]
 
-#: Seconds after which a search begins no other try, and its seed.
-_PATIENCE, _SEED = 20.0, 1
+#: Seed of the searches.
+_SEED = 1
 
 
-class Search:
+class WaySearch:
     """Searches for ways, and remembers what was found and what was not.
 
     Parameters
@@ -59,7 +59,7 @@ class Search:
             [self._prover.mesh(n, choice.origin) for n in group] for group in (moving, around)
         )
         try:
-            found = escape(body, fixed, seed=_SEED, seconds=_PATIENCE)
+            found = escape(body, fixed, seed=_SEED)
         except InputError:  # they overlap: nothing comes out
             return None
         return found if isinstance(found, Path) else None

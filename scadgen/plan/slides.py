@@ -18,14 +18,14 @@ from scipy.sparse.csgraph import connected_components
 from scadgen.plan.standing import Standing
 from scadgen.solid.affine import Floats
 
-__all__ = ["ALONG", "Tube", "clusters", "sliding", "tubes_of"]
+__all__ = ["ALONG", "KeyedTube", "clusters", "sliding", "tubes_of"]
 
 #: Cosine of the angle up to which directions are the same.
 ALONG = 1 - 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Tube:
+class KeyedTube:
     """A tube on a key.
 
     Parameters
@@ -41,13 +41,13 @@ class Tube:
     out: Floats
 
 
-def tubes_of(standing: Standing) -> list[Tube]:
+def tubes_of(standing: Standing) -> list[KeyedTube]:
     """All tubes on keys."""
     found = []
     for site in standing.sites:
         for half, element in standing.keys(site).items():
             if element is not None:
-                found.append(Tube(element, site.parts[half], site.direction(half)))
+                found.append(KeyedTube(element, site.parts[half], site.direction(half)))
     return found
 
 

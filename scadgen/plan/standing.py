@@ -16,11 +16,11 @@ from scadgen.kit.model import Joint, Kit
 from scadgen.solid.affine import Floats
 from scadgen.solid.pose import Pose
 
-__all__ = ["Site", "Standing", "stand"]
+__all__ = ["Standing", "StandingJoint", "stand"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Site:
+class StandingJoint:
     """A joint of the frame.
 
     Parameters
@@ -67,7 +67,7 @@ class Standing:
     """
 
     kit: Kit
-    sites: tuple[Site, ...]
+    sites: tuple[StandingJoint, ...]
 
     @cached_property
     def elements(self) -> frozenset[int]:
@@ -98,7 +98,7 @@ class Standing:
         near = {number for part in parts for number in self.sites_of[part]}
         return sorted(near & {number for part in others for number in self.sites_of[part]})
 
-    def keys(self, site: Site) -> dict[int, int | None]:
+    def keys(self, site: StandingJoint) -> dict[int, int | None]:
         """The element on the edge of each of a joint's keys, if there is one, by its half A."""
         pegs = zip(site.pieces("half_a"), site.pieces("peg"), strict=True)
         fixed = {half: part for half, peg in pegs if (part := site.parts[peg]) in self.elements}
@@ -155,7 +155,7 @@ def stand(kit: Kit) -> Standing:
 
 def _site(
     kit: Kit, number: int, kind: Joint, pose: Pose, there: Mapping[tuple[int, int, str], int]
-) -> Site:
+) -> StandingJoint:
     """The joint at a vertex."""
     parts: dict[int, int] = {}
     tubes: dict[int, int] = {}
@@ -170,4 +170,4 @@ def _site(
         parts[n] = part
         if piece.role == "half_a" and kit.key == "loose" and element is not None:
             tubes[n] = element
-    return Site(kind, pose, parts, tubes)
+    return StandingJoint(kind, pose, parts, tubes)

@@ -28,7 +28,7 @@ from scadgen.interlock.forces import equilibrium, unfelt
 from scadgen.interlock.stops import SLIDES, Stop, stopped
 from scadgen.interlock.verdict import Certificate, Motion, verdict
 from scadgen.plan.slides import sliding
-from scadgen.plan.standing import Site, Standing
+from scadgen.plan.standing import Standing, StandingJoint
 from scadgen.plan.touching import Touching
 from scadgen.solid.affine import Floats
 from scadgen.solid.pose import Vector
@@ -132,7 +132,7 @@ def whole_frame(standing: Standing) -> Whole:
     return Whole(len(boxes), len(every), (*loose, Loose(moving, (0.0, 0.0, 0.0))), 0, "more")
 
 
-def parting_joints(standing: Standing) -> tuple[Site, ...]:
+def parting_joints(standing: Standing) -> tuple[StandingJoint, ...]:
     """Where a finished frame may come apart though no peg slides.
 
     A joint may lock only because its tubes are held by joints at their other ends, where a loop

@@ -66,7 +66,7 @@ def dumps(frame: Frame) -> str:
             (frame.called.edges, len(frame.edges)),
         )
     )
-    vertices = ",\n  ".join(json.dumps(point) for point in frame.vertices[order].tolist())
+    vertices = ",\n  ".join(json.dumps(point) for point in frame.plan[order].tolist())
     pairs = np.argsort(order)[frame.edges[of_edges]]
     edges = ",\n  ".join(json.dumps(pair) for pair in pairs.tolist())
     return (

@@ -15,10 +15,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from scadgen.errors import InputError
-from scadgen.frame.graph import LARGEST, Frame, make_frame, vertex_pairs
+from scadgen.frame.graph import Frame
 from scadgen.frame.numbering import Numbering, counted, where
-from scadgen.frame.planarity import more
-from scadgen.frame.repair import MOST_SEGMENTS, TOLERANCE, repair
+from scadgen.frame.words import more
+from scadgen.plane.drawn import LARGEST, make_frame, vertex_pairs
+from scadgen.plane.repair import MOST_SEGMENTS, TOLERANCE, repair
 from scadgen.solid.affine import Floats
 
 __all__ = [
@@ -319,7 +320,7 @@ def _check_connected(frame: Frame) -> None:
         return
     # A curve has many edges and may be small; of equally small parts the last is told.
     smallest = len(lengths) - 1 - int(lengths[::-1].argmin())
-    points = frame.vertices[frame.components == smallest]
+    points = frame.plan[frame.components == smallest]
     count = np.count_nonzero(part == smallest)
     msg = (
         f"{len(lengths)} parts that are not connected, the smallest of {count} "

@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 
 from scadgen.errors import InputError
-from scadgen.frame.planarity import crossings
+from scadgen.plane.planarity import crossings
 from scadgen.solid.affine import Floats
 
 if TYPE_CHECKING:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Box",
-    "Place",
+    "Viewport",
     "measured",
     "outermost",
     "own_transform",
@@ -37,7 +37,7 @@ Box = tuple[tuple[float, float], tuple[float, float]]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Place:
+class Viewport:
     """Where an element stands.
 
     Parameters
@@ -67,7 +67,7 @@ class Place:
     used: Element | None = None
 
 
-def outermost(root: Element, page: Page, style: Style) -> Place:
+def outermost(root: Element, page: Page, style: Style) -> Viewport:
     """Where the root of a document is: turned about its middle, if it is, as in a window.
 
     Raises
@@ -78,7 +78,7 @@ def outermost(root: Element, page: Page, style: Style) -> Place:
     matrix, shown = page.to_mm, None
     middle = "0 0" if page.window is None else "50% 50%"
     style = {"transform-origin": middle, **style, "transform-box": "view-box"}
-    window = Place(np.eye(3), style, Measure(page.window, dots=page.dots))
+    window = Viewport(np.eye(3), style, Measure(page.window, dots=page.dots))
     turn = own_transform(root, window, lambda: ((0.0, 0.0), page.window or (0.0, 0.0)))
     if turn is not None:
         matrix = matrix @ np.linalg.inv(page.to_window) @ turn @ page.to_window
@@ -91,10 +91,10 @@ def outermost(root: Element, page: Page, style: Style) -> Place:
             shown = region([corners @ moves[:2, :2].T + moves[:2, 2]], "nonzero").intersection(
                 shown
             )
-    return Place(matrix, {}, Measure(page.size, dots=page.dots), shown)
+    return Viewport(matrix, {}, Measure(page.size, dots=page.dots), shown)
 
 
-def visible(place: Place) -> bool:
+def visible(place: Viewport) -> bool:
     """Whether shapes are seen there."""
     return place.style.get("visibility", "visible") == "visible"
 
@@ -108,12 +108,12 @@ def measured(style: dict[str, str], outer: Measure, *, root: bool) -> Measure:
     return replace(outer, font=size, root_font=size if root else outer.root_font)
 
 
-def within(here: Place, shown: BaseGeometry) -> Place:
+def within(here: Viewport, shown: BaseGeometry) -> Viewport:
     """The same place, of which less is shown."""
     return replace(here, clip=shown if here.clip is None else here.clip.intersection(shown))
 
 
-def viewport(element: Element, here: Place, use: Element | None) -> Place | None:
+def viewport(element: Element, here: Viewport, use: Element | None) -> Viewport | None:
     """What is in a viewport within the drawing; None if that has no size.
 
     Parameters
@@ -148,7 +148,7 @@ def viewport(element: Element, here: Place, use: Element | None) -> Place | None
     return replace(here, matrix=matrix, measure=replace(here.measure, page=page))
 
 
-def own_transform(element: Element, here: Place, box: Callable[[], Box]) -> Floats | None:
+def own_transform(element: Element, here: Viewport, box: Callable[[], Box]) -> Floats | None:
     """What moves an element, in user units, ``(3, 3) float``; None if nothing does.
 
     Parameters

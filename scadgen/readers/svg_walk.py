@@ -14,7 +14,15 @@ from scadgen.errors import InputError
 from scadgen.readers.svg_clip import region
 from scadgen.readers.svg_elements import GROUPS, HREF, UNSEEN, VIEWPORTS, kind_of, wanted
 from scadgen.readers.svg_paint import linked
-from scadgen.readers.svg_place import Box, Place, measured, own_transform, viewport, visible, within
+from scadgen.readers.svg_place import (
+    Box,
+    Viewport,
+    measured,
+    own_transform,
+    viewport,
+    visible,
+    within,
+)
 from scadgen.readers.svg_properties import share
 from scadgen.readers.svg_shapes import SHAPES, length, outline
 from scadgen.readers.svg_style import Cascade
@@ -44,7 +52,7 @@ class Shape:
     """A shape, and its outlines in mm, each ``(k, 2) float``."""
 
     kind: str
-    place: Place
+    place: Viewport
     lines: list[Floats]
     curved: bool
 
@@ -81,7 +89,7 @@ class Walk:
     _clips: dict[tuple[Element, bytes], BaseGeometry] = field(default_factory=dict)
 
     def shapes(
-        self, elements: Iterable[Element], place: Place, mode: Mode = "paint"
+        self, elements: Iterable[Element], place: Viewport, mode: Mode = "paint"
     ) -> Iterator[Shape]:
         """Shapes of elements and of all that is in them.
 
@@ -146,7 +154,7 @@ class Walk:
             )
             raise InputError(msg)
 
-    def _enter(self, kind: str, element: Element, outer: Place, mode: Mode) -> Place | None:
+    def _enter(self, kind: str, element: Element, outer: Viewport, mode: Mode) -> Viewport | None:
         """Where the inside of an element is; None if nothing of it is shown."""
         root = element is self.cascade.root and outer.use is None
         style = self.cascade.style(element, outer.style, outer.used)
@@ -172,7 +180,7 @@ class Walk:
             return viewport(element, here, outer.use)
         return here
 
-    def _shape(self, kind: str, element: Element, here: Place) -> Shape:
+    def _shape(self, kind: str, element: Element, here: Viewport) -> Shape:
         stretch = float(np.linalg.norm(here.matrix[:2, :2], 2))
         if not np.isfinite(stretch) or stretch == 0:
             msg = f"{kind}: a transform leaves nothing of it"
@@ -186,7 +194,7 @@ class Walk:
         ]
         return Shape(kind, here, turned, curved)
 
-    def _used(self, element: Element, here: Place) -> list[tuple[Element, Place]]:
+    def _used(self, element: Element, here: Viewport) -> list[tuple[Element, Viewport]]:
         """What a use shows, and where."""
         link = element.get("href") or element.get(HREF) or ""
         if not link.startswith("#"):
@@ -203,7 +211,7 @@ class Walk:
         inside = replace(here, matrix=matrix, depth=here.depth + 1, use=element, used=target)
         return [(target, inside)]
 
-    def _clipped(self, kind: str, element: Element, here: Place) -> Place:
+    def _clipped(self, kind: str, element: Element, here: Viewport) -> Viewport:
         """The place with what the clip path of an element leaves of it."""
         said = here.style.get("clip-path", "none")
         link = linked(said)
@@ -227,7 +235,7 @@ class Walk:
         self.count_clipping(self._clips[key])
         return within(here, self._clips[key])
 
-    def _region(self, path: Element, here: Place) -> BaseGeometry:
+    def _region(self, path: Element, here: Viewport) -> BaseGeometry:
         """What a clip path shows, in mm."""
         parent = self.cascade.in_place(path)
         turn = own_transform(path, replace(here, style=parent), lambda: ((0.0, 0.0), (0.0, 0.0)))
@@ -246,7 +254,7 @@ class Walk:
         outer = self._clipped("clipPath", path, replace(inside, style=parent)).clip
         return whole if outer is None else whole.intersection(outer)
 
-    def _box(self, kind: str, element: Element, here: Place) -> Box:
+    def _box(self, kind: str, element: Element, here: Viewport) -> Box:
         """Corner and size of the box around an element, in its user units."""
         if not abs(np.linalg.det(here.matrix[:2, :2])) > 0:
             return (0.0, 0.0), (0.0, 0.0)
@@ -267,13 +275,13 @@ class Walk:
         return (low[0], low[1]), (high[0] - low[0], high[1] - low[1])
 
 
-def _check_depth(here: Place, what: str, kind: str) -> None:
+def _check_depth(here: Viewport, what: str, kind: str) -> None:
     if here.depth == _DEEPEST:
         msg = f"{what}: more than {_DEEPEST} {kind} within each other"
         raise InputError(msg)
 
 
-def _check_size(here: Place) -> None:
+def _check_size(here: Viewport) -> None:
     if not (np.abs(here.matrix) <= LARGEST).all():
         msg = "transforms: make a number that is too large"
         raise InputError(msg)

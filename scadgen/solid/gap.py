@@ -16,7 +16,7 @@ from scadgen.solid.affine import Floats, Ints
 if TYPE_CHECKING:
     from manifold3d import Manifold
 
-__all__ = ["overlap_volume", "smallest_gap", "solid"]
+__all__ = ["overlap_volume", "smallest_gap", "solid", "thickness"]
 
 
 def solid(points: Floats, triangles: Ints) -> Manifold:
@@ -81,6 +81,26 @@ def smallest_gap(
         raise InputError(msg)
     one, other = solid(points_a, triangles_a), solid(points_b, triangles_b)
     return float(one.min_gap(other, limit))
+
+
+def thickness(common: Manifold) -> float:
+    """Mean thickness of the thickest piece of what two solids share.
+
+    Of a film it is how deep they are in each other, whatever its shape: twice the volume over
+    the surface.
+
+    Parameters
+    ----------
+    common
+        What they share, in any number of pieces.
+
+    Returns
+    -------
+    depth
+        In mm; 0 where they share nothing.
+    """
+    pieces = (piece for piece in common.decompose() if piece.volume() > 0)
+    return max((float(2 * p.volume() / p.surface_area()) for p in pieces), default=0.0)
 
 
 def overlap_volume(

@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
 from scadgen.errors import InputError, ToolError
-from scadgen.interlock.bodies import bodies, open_edges
+from scadgen.interlock.bodies import bodies, open_edges, unpinched
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.crossing import crossing_faces
 from scadgen.solid.mesh import FLAT, heights, volume
-from scadgen.tools.stl import nothing_inside, read_stl
+from scadgen.tools.stl import nothing_inside, read_stl, read_text_stl
 
-__all__ = ["FORMATS", "read_parts"]
+__all__ = ["FORMATS", "MeshPart", "read_parts"]
 
 #: The endings of files that can be read.
 FORMATS = ("stl", "3mf", "obj", "ply", "off")
@@ -33,7 +34,25 @@ _DEEP = 1e-5
 _Mesh = tuple[Floats, Ints]
 
 
-def read_parts(paths: Sequence[Path]) -> dict[str, _Mesh]:
+class MeshPart(NamedTuple):
+    """A part, and where it is from.
+
+    Parameters
+    ----------
+    name
+        What it is called; no other part has that name.
+    path
+        The file that it is in.
+    mesh
+        Its points ``(v, 3) float`` and triangles ``(m, 3) int``.
+    """
+
+    name: str
+    path: Path
+    mesh: _Mesh
+
+
+def read_parts(paths: Sequence[Path]) -> list[MeshPart]:
     """Read the parts in some files.
 
     Parameters
@@ -44,10 +63,10 @@ def read_parts(paths: Sequence[Path]) -> dict[str, _Mesh]:
     Returns
     -------
     parts
-        Points ``(v, 3) float`` and triangles ``(m, 3) int`` by name: the file's name
-        without its ending; if it has several bodies, the names of its objects in 3MF or OBJ
-        where each is one of a kind, else .1, .2 and so on after the file's.  3MF is turned
-        into mm; the others have no unit and are left as they are.
+        They are called as their file without its ending; if it has several bodies, as its
+        objects or groups in 3MF or OBJ, or its solids in STL as text, where each name is one
+        of a kind, else .1, .2 and so on after the file's.  3MF is turned into mm; the others
+        have no unit and are left as they are.  A part that touches itself is split there.
 
     Raises
     ------
@@ -57,7 +76,7 @@ def read_parts(paths: Sequence[Path]) -> dict[str, _Mesh]:
     """
     files = [(path, _named_bodies(path)) for path in paths]
     names = Counter(name for _, found in files for name, _ in found)
-    parts: dict[str, _Mesh] = {}
+    parts: dict[str, MeshPart] = {}
     for path, found in files:
         named = all(name and names[name] == 1 for name, _ in found)
         for number, (own, mesh) in enumerate(found, 1):
@@ -66,9 +85,9 @@ def read_parts(paths: Sequence[Path]) -> dict[str, _Mesh]:
             if name in parts:
                 msg = f"{path}: there is a part {name} already: files must have different names"
                 raise InputError(msg)
-            parts[name] = mesh
-    _check_sizes(parts)
-    return parts
+            parts[name] = MeshPart(name, path, mesh)
+    _check_sizes([*parts.values()])
+    return [*parts.values()]
 
 
 def _named_bodies(path: Path) -> list[tuple[str, _Mesh]]:
@@ -85,7 +104,8 @@ def _named_bodies(path: Path) -> list[tuple[str, _Mesh]]:
             used, numbers = np.unique(triangles[faces], return_inverse=True)
             body = points[used], numbers.reshape(-1, 3)
             _check_body(path, *body)
-            found.append((f"{name}.{number}" if name and len(several) > 1 else name, body))
+            called = f"{name}.{number}" if name and len(several) > 1 else name
+            found.append((called, unpinched(*body)))
     if not found:
         msg = f"{path}: has no faces"
         raise InputError(msg)
@@ -104,24 +124,44 @@ def _objects(path: Path) -> Iterator[tuple[str, _Mesh]]:
     except OSError as error:
         msg = f"{path}: cannot be read: {error.strerror}"
         raise InputError(msg) from error
-    size = 84 + 50 * int.from_bytes(head[80:84], "little")
-    if kind == "stl" and len(head) == 84 and path.stat().st_size == size:
-        try:
-            yield "", read_stl(path)
-        except ToolError as error:
-            raise InputError(str(error)) from error
+    if kind != "stl":
+        yield from _by_trimesh(path, kind)
         return
-    yield from _by_trimesh(path, kind)
+    size = 84 + 50 * int.from_bytes(head[80:84], "little")
+    try:
+        if len(head) == 84 and path.stat().st_size == size:
+            yield "", read_stl(path)
+        else:
+            yield from _solids(path)
+    except ToolError as error:
+        raise InputError(str(error)) from error
+
+
+def _solids(path: Path) -> Iterator[tuple[str, _Mesh]]:
+    """The solids of an STL as text; all as one where they are patches of one surface."""
+    found = [
+        (name, _welded(path, corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3)))
+        for name, corners in read_text_stl(path)
+        if len(corners)
+    ]
+    if len(found) > 1 and all(not len(open_edges(mesh[1])) for _, mesh in found):
+        yield from found
+    elif found:
+        start = np.cumsum([0, *(len(points) for _, (points, _) in found)])
+        points = np.concatenate([points for _, (points, _) in found])
+        numbered = [t + n for (_, (_, t)), n in zip(found, start, strict=False)]
+        yield "", (points, np.concatenate(numbered))
 
 
 def _by_trimesh(path: Path, kind: str) -> Iterator[tuple[str, _Mesh]]:
     """What trimesh finds in a file, in mm if the file has a unit."""
     found = _loaded(path, kind)
-    if kind == "obj":
-        # Objects may also be patches of one surface: then only the whole is closed.
-        apart = _loaded(path, kind, {"split_objects": True, "group_material": False})
+    for split in ("split_groups", "split_objects") if kind == "obj" else ():
+        # Objects and groups may also be patches of one surface: then only the whole is closed.
+        apart = _loaded(path, kind, {split: True, "group_material": False})
         closed = (len(open_edges(_welded(path, *mesh)[1])) == 0 for _, mesh in apart)
-        found = apart if all(closed) else found
+        if len(apart) > 1 and all(closed):
+            found = apart
     yield from found
 
 
@@ -181,9 +221,9 @@ def _check_body(path: Path, points: Floats, triangles: Ints) -> None:
         raise InputError(msg)
 
 
-def _check_sizes(parts: dict[str, _Mesh]) -> None:
+def _check_sizes(parts: Sequence[MeshPart]) -> None:
     """Refuse parts that cannot be in one unit."""
-    size = {n: float(np.linalg.norm(np.ptp(points, axis=0))) for n, (points, _) in parts.items()}
+    size = {part.name: float(np.linalg.norm(np.ptp(part.mesh[0], axis=0))) for part in parts}
     small, large = min(size, key=lambda n: size[n]), max(size, key=lambda n: size[n])
     if size[large] > _UNITS * size[small]:
         msg = (

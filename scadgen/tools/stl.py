@@ -1,7 +1,8 @@
-"""Reads a binary STL back, to see whether what was written is one closed surface."""
+"""Reads STL, binary and as text; tells whether what was written is one closed surface."""
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -10,11 +11,16 @@ from scadgen.errors import ToolError
 from scadgen.solid.affine import Floats, Ints
 from scadgen.solid.mesh import FLAT, edge_faults, volume, weld_float32
 
-__all__ = ["check_stl", "nothing_inside", "read_stl"]
+__all__ = ["check_stl", "nothing_inside", "read_stl", "read_text_stl"]
 
 #: Length of the header, and of the count behind it, in bytes.
 _HEADER = 80
 _START = 84
+
+#: What begins a solid in an STL as text, with its name; and what begins a face, and a corner.
+_SOLID = re.compile(r"^\s*solid\b[ \t]*(.*?)[ \t]*$", re.MULTILINE | re.IGNORECASE)
+_FACET = re.compile(r"\bfacet\b", re.IGNORECASE)
+_VERTEX = re.compile(r"\bvertex\s+(\S+)\s+(\S+)\s+(\S+)", re.IGNORECASE)
 
 _FACE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 
@@ -52,6 +58,42 @@ def read_stl(path: Path) -> tuple[Floats, Ints]:
         corners.astype(np.float64), np.arange(3 * count, dtype=np.int64).reshape(-1, 3)
     )
     return points.astype(np.float64), triangles
+
+
+def read_text_stl(path: Path) -> list[tuple[str, Floats]]:
+    """Read an STL that is text.
+
+    Parameters
+    ----------
+    path
+        The file.
+
+    Returns
+    -------
+    solids
+        The name of each, and its faces' corners ``(m, 3, 3) float``.
+
+    Raises
+    ------
+    ToolError
+        If it is not a whole STL.
+    """
+    text = path.read_bytes().decode("utf-8", "replace")
+    before, *rest = _SOLID.split(text)
+    found = []
+    for name, body in zip(rest[::2], rest[1::2], strict=True):
+        try:
+            corners = np.array(_VERTEX.findall(body), dtype=np.float64).reshape(-1, 3, 3)
+        except ValueError:
+            corners = np.empty((0, 3, 3))
+        if len(corners) != len(_FACET.findall(body)):
+            break
+        found.append((name, corners))
+    else:
+        if found and not before.strip():
+            return found
+    msg = f"{path}: not a whole STL file"
+    raise ToolError(msg)
 
 
 def check_stl(path: Path) -> float:

@@ -1,15 +1,14 @@
-"""Run a search on all cores for a time."""
+"""Run a search on all cores."""
 
 from __future__ import annotations
 
 import multiprocessing
 import signal
-import time
 from collections.abc import Iterable, Iterator
 
 from scadgen.frame.placement import KEYS
 from scadgen.joint.weave import BUILT_IN, Weave
-from scadgen.tune.search import Search
+from scadgen.tune.search import WeaveSearch
 
 __all__ = ["rounds", "start"]
 
@@ -21,9 +20,9 @@ def start(valence: int) -> list[Weave]:
 
 
 def rounds(
-    search: Search, begin: Iterable[Weave], seconds: float, jobs: int | None = None
+    search: WeaveSearch, begin: Iterable[Weave], count: int, jobs: int | None = None
 ) -> Iterator[float]:
-    """Search for a time.
+    """WeaveSearch for some rounds.
 
     Parameters
     ----------
@@ -31,19 +30,18 @@ def rounds(
         The search.
     begin
         Weaves to begin with.
-    seconds
-        Time after which it stops.
+    count
+        Number of rounds.
     jobs
         Processes that work; None for one a core.
 
     Yields
     ------
-    seconds
-        Time gone, after each step.
+    share
+        Of all rounds, gone after each half of one.
     """
-    began = time.monotonic()
     context = multiprocessing.get_context("forkserver")
     # An interrupt is for the one who waits; leaving the block ends who works.
     with context.Pool(jobs, signal.signal, (signal.SIGINT, signal.SIG_IGN)) as workers:
-        for _ in search.rounds(workers, begin, seconds):
-            yield time.monotonic() - began
+        for half, _ in enumerate(search.rounds(workers, begin, count), start=1):
+            yield half / (2 * count)

@@ -2,13 +2,11 @@
 
 Each round looks at some weaves quickly, then proves the most promising: those that no proved
 weave beats.  A round depends on the seed and on the rounds before it, not on how many cores
-work nor on the time; so a search goes on from its record as if it had never stopped.
+work; so a search goes on from its record as if it had never stopped.
 """
 
 from __future__ import annotations
 
-import itertools
-import time
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from multiprocessing.pool import Pool
@@ -21,7 +19,7 @@ from scadgen.solid.affine import Floats
 from scadgen.tune.judge import Figures, Wish, figures, proof
 from scadgen.tune.record import Record, Shape
 
-__all__ = ["Search"]
+__all__ = ["WeaveSearch"]
 
 #: Where weaves are looked for: low and high; ring ratios as shares of half the valence, so
 #: that the room between neighbouring tubes is about the same.
@@ -45,7 +43,7 @@ _ARM = 2.0
 
 
 @dataclass
-class Search:
+class WeaveSearch:
     """A search, and what it has found.
 
     Parameters
@@ -66,8 +64,8 @@ class Search:
     looked: dict[Shape, Figures] = field(default_factory=dict)
     proved: dict[Shape, Figures] = field(default_factory=dict)
 
-    def rounds(self, workers: Pool, start: Iterable[Weave], seconds: float) -> Iterator[None]:
-        """Search for a time, one step a round.
+    def rounds(self, workers: Pool, start: Iterable[Weave], count: int) -> Iterator[None]:
+        """WeaveSearch for some rounds, each of which looks and then proves.
 
         Parameters
         ----------
@@ -75,21 +73,22 @@ class Search:
             Who looks and proves.
         start
             Weaves that the first round looks at.
-        seconds
-            Time after which nothing is waited for; what is found by then is on record.
+        count
+            Number of rounds.
+
+        Yields
+        ------
+        nothing
+            Twice a round: once it has looked, and once it has proved.
         """
-        end = time.monotonic() + seconds
         shapes = [weave.shape for weave in start]
-        for number in itertools.count():
+        for number in range(count):
             random = np.random.default_rng([self.seed, number])
             while len(shapes) < _LOOKS:
                 shapes.append(self._bred(random))
-            try:
-                self._judge(workers, "look", shapes, end)
-                yield
-                self._judge(workers, "proof", self._promising(), end)
-            except TimeoutError:
-                return
+            self._judge(workers, "look", shapes)
+            yield
+            self._judge(workers, "proof", self._promising())
             shapes = []
             yield
 
@@ -101,15 +100,9 @@ class Search:
         return sorted(best, key=lambda one: one[1].play)
 
     def _judge(
-        self, workers: Pool, kind: Literal["look", "proof"], shapes: Iterable[Shape], end: float
+        self, workers: Pool, kind: Literal["look", "proof"], shapes: Iterable[Shape]
     ) -> None:
-        """Judge weaves, in parallel; those on record by the record.
-
-        Raises
-        ------
-        TimeoutError
-            Time is over before all are judged.
-        """
+        """Judge weaves, in parallel; those on record by the record."""
         judge, found = (figures, self.looked) if kind == "look" else (proof, self.proved)
         wanted = [shape for shape in dict.fromkeys(shapes) if shape not in found]
         pending = {
@@ -119,9 +112,7 @@ class Search:
         }
         try:
             for answer in pending.values():
-                answer.wait(max(end - time.monotonic(), 0.0))
-                if not answer.ready():
-                    raise TimeoutError
+                answer.wait()
         finally:
             for shape, answer in pending.items():
                 if answer.ready():

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from scadgen.work.hold import interrupts_held
+from scadgen.work.deferred import interrupts_held
 
 __all__ = ["LIMIT", "Cache", "Entry", "default_folder"]
 

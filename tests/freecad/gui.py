@@ -20,6 +20,9 @@ BUTTONS = (
     *("Restore", "Preferences"),
 )
 
+#: Where task panels and the tree are: one in FreeCAD 0.20, two in 1.0.
+PANELS = ("Combo View", "Tasks", "Model")
+
 #: Seconds that anything may take.
 PATIENCE = 120
 
@@ -77,8 +80,9 @@ def arrange(width):
     """The panel and the 3D view, and nothing else."""
     window = Gui.getMainWindow()
     for dock in window.findChildren(QtGui.QDockWidget):
-        dock.setVisible(dock.objectName() == "Combo View")
-        if dock.objectName() == "Combo View":
+        shown = dock.objectName() in PANELS
+        dock.setVisible(shown)
+        if shown:
             window.resizeDocks([dock], [width], QtCore.Qt.Horizontal)
     window.statusBar().clearMessage()
 
@@ -143,7 +147,28 @@ def the_workbench_is_there():
 def new_kit_panel():
     yield from press("NewKit")
     yield lambda: panel("ScadgenNewKit")
+    yield is_idle
     field(QtGui.QComboBox, "detail").setCurrentIndex(0)
+
+
+def frames():
+    """What the panel's list of frames shows."""
+    box = field(QtGui.QComboBox, "frame")
+    return [box.itemText(n) for n in range(box.count())]
+
+
+def choose_frame(name):
+    field(QtGui.QComboBox, "frame").setCurrentIndex(frames().index(name))
+
+
+def options():
+    """Names of the options that the panel shows."""
+    found = (w.objectName() for kind in (QtGui.QLineEdit, QtGui.QCheckBox) for w in visible(kind))
+    return {name[7:] for name in found if name.startswith("option_")}
+
+
+def set_option(name, text):
+    field(QtGui.QLineEdit, f"option_{name}").setText(text)
 
 
 def program(name, text):
@@ -169,17 +194,76 @@ def bad_engines():
 
 
 def an_engine_that_cannot_work_is_said_so():
+    settings().SetString("Engine", str(PLACES["engine"]))
     yield from new_kit_panel()
+    assert len(frames()) > 20
+    yield from each_bad_engine()
+    yield from new_kit_panel()
+    assert frames() == []
+    yield from each_bad_engine("frame gave no list")
+    settings().SetString("Engine", str(PLACES["engine"]))
+
+
+def each_bad_engine(idle="no kit can be read there"):
+    """OK is pressed with each, and the panel closed; the idle one has a version and no more."""
     for path, words in bad_engines():
         settings().SetString("Engine", path)
         ok()
         yield is_idle
-        assert words in panel_text(), panel_text()
+        assert (idle if path.endswith("idle") else words) in panel_text(), panel_text()
         assert "\n" not in panel_text()
     assert App.ActiveDocument is None
     cancel()
     yield is_closed
-    settings().SetString("Engine", str(PLACES["engine"]))
+
+
+def each_frame_has_its_options():
+    yield from new_kit_panel()
+    assert frames()[:2] == ["hexagonal", "square"]
+    area = {"rows", "columns", "radius", "outline"}
+    for name, wanted in (
+        ("rhombic", {"angle", *area}),
+        ("ladder", {"bays", "width", "bay_length"}),
+        ("4.8.8", area),
+    ):
+        choose_frame(name)
+        yield lambda wanted=wanted: options() == wanted
+    assert field(QtGui.QLabel, "frame_text").text() == "squares and octagons"
+    choose_frame("From a file")
+    ok()
+    assert panel_text() == "Choose the file that the frame is in", panel_text()
+    for ending, wanted in (("svg", {"no_split", "flatten"}), ("json", {"repair"})):
+        field(QtGui.QWidget, "file").setProperty("fileName", f"drawing.{ending}")
+        yield lambda wanted=wanted: wanted <= options()
+        assert {"scale", "snap"} <= options()
+    assert "flatten" not in options()
+    cancel()
+    yield is_closed
+
+
+def a_frame_from_a_file_is_made():
+    path = PLACES["folder"] / "tee.json"
+    drawn = {"vertices": [[0, 0], [-15, 0], [15, 0], [0, 15]], "edges": [[0, 1], [0, 2], [0, 3]]}
+    path.write_text(json.dumps(drawn))
+    yield from new_kit_panel()
+    choose_frame("From a file")
+    field(QtGui.QWidget, "file").setProperty("fileName", str(path))
+    yield lambda: "scale" in options()
+    field(QtGui.QCheckBox, "proved").setChecked(False)
+    set_option("scale", "much")
+    ok()
+    yield is_idle
+    assert "much" in panel_text(), panel_text()
+    assert App.ActiveDocument is None
+    set_option("scale", "10")
+    field(QtGui.QComboBox, "place").setCurrentIndex(1)
+    ok()
+    yield is_closed
+    doc = App.ActiveDocument
+    assert doc.Kit.Label == "Kit: tee"
+    assert "Rows" not in doc.Kit.PropertiesList
+    assert doc.Frame.Pieces == doc.Kit.Pieces > 3
+    App.closeDocument(doc.Name)
 
 
 def what_the_engine_refuses_is_said():
@@ -261,8 +345,8 @@ def cancel_leaves_nothing():
 
 
 def an_engine_that_does_not_listen_is_stopped():
-    settings().SetString("Engine", program("deaf", "trap '' TERM; exec sleep 60"))
     yield from new_kit_panel()
+    settings().SetString("Engine", program("deaf", "trap '' TERM; exec sleep 60"))
     ok()
     yield lambda: process() and process().processId()
     run = process().processId()
@@ -271,11 +355,17 @@ def an_engine_that_does_not_listen_is_stopped():
     assert is_gone(run)
     cancel()
     yield is_closed
+    settings().SetString("Engine", program("slow", "exec sleep 60"))
+    yield from press("NewKit")
+    yield lambda: process() and process().processId()
+    cancel()
+    yield is_closed
     settings().SetString("Engine", str(PLACES["engine"]))
 
 
 def a_new_kit_is_made_and_undone():
     yield from new_kit_panel()
+    set_option("rows", "2")
     field(QtGui.QWidget, "clearance").setProperty("rawValue", 0.25)
     picture("new_kit")
     assert field(QtGui.QCheckBox, "proved").isChecked()
@@ -572,6 +662,7 @@ def it_speaks_german():
     yield lambda: button("NewKit").text() == "Neuer Bausatz"
     yield from new_kit_panel()
     assert field(QtGui.QCheckBox, "has_side").text() == "Seite"
+    assert {"Reihen", "Spalten"} <= {w.text() for w in visible(QtGui.QLabel)}
     cancel()
     yield is_closed
 
@@ -579,10 +670,12 @@ def it_speaks_german():
 STEPS = (
     the_workbench_is_there,
     an_engine_that_cannot_work_is_said_so,
+    each_frame_has_its_options,
     what_the_engine_refuses_is_said,
     an_engine_that_is_killed_leaves_nothing,
     cancel_leaves_nothing,
     an_engine_that_does_not_listen_is_stopped,
+    a_frame_from_a_file_is_made,
     a_new_kit_is_made_and_undone,
     parts_joint_and_frame_are_added_and_undone,
     a_part_has_a_clearance_of_its_own,

@@ -115,7 +115,7 @@ def edit():
 def refuse():
     """A value out of its range, and a kit that is gone: said, and the last shape kept."""
     from freecad.scadgen import document, part_object
-    from freecad.scadgen.affine import KitError
+    from freecad.scadgen.kit_data import KitError
 
     doc = App.openDocument(saved())
     before, found = volumes(doc), {}
@@ -235,6 +235,7 @@ def other():
     """A kit of several kinds of joints in cells, and one of a frame that is as it is."""
     from freecad.scadgen import document
     from freecad.scadgen.kit_object import data_of
+    from freecad.scadgen.remake import remaking
 
     found = {}
     for name in ("cells", "drawn"):
@@ -260,6 +261,9 @@ def other():
             kit.Rows, kit.Columns = 3, 2
             doc.recompute()
             found[name]["more"] = [placed_of(frame), kit.Pieces]
+        kit.Clearance = 0.25
+        (PLACES["folder"] / f"{name}_again").mkdir()
+        found[name]["again"] = remaking(kit, PLACES["folder"] / f"{name}_again")
         doc.saveAs(saved(name))
     return found
 

@@ -12,7 +12,7 @@ import FreeCADGui as Gui
 from PySide import QtGui
 
 from freecad.scadgen import document
-from freecad.scadgen.affine import read_kit
+from freecad.scadgen.kit_data import read_kit
 from freecad.scadgen.kit_object import data_of
 from freecad.scadgen.names import icon_of, joint_label, label_of
 from freecad.scadgen.panels.check import CheckPanel

@@ -6,7 +6,7 @@ from typing import Any
 
 import FreeCAD as App
 
-from freecad.scadgen.affine import KitError
+from freecad.scadgen.kit_data import KitError
 from freecad.scadgen.kit_object import data_of
 from freecad.scadgen.names import CELLS, COLOURS
 from freecad.scadgen.properties import (
@@ -115,7 +115,7 @@ def placements_of(obj: Any) -> dict[tuple[str, str], list[Any]]:
 def _ways(obj: Any) -> dict[str, Any]:
     """How far a piece of each role moves along its edge and to its side, in explosions."""
     data = data_of(obj.Kit)
-    half = next(p["part"] for p in _layout(obj) if p["role"] == "half_a")
+    half = data.joints[0]["pieces"][0]["part"]
     points = data.parts[half].points(data.values)
     left = 0.5 if sum(y for _, y, _ in points) > 0 else -0.5
     ways = dict.fromkeys(COLOURS, App.Vector(1, 0, 0))

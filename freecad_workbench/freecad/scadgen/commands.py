@@ -9,7 +9,7 @@ import FreeCADGui as Gui
 from PySide import QtGui
 
 from freecad.scadgen import actions
-from freecad.scadgen.affine import KitError
+from freecad.scadgen.kit_data import KitError
 from freecad.scadgen.view import icon
 
 __all__ = ["TOOLBAR", "register"]

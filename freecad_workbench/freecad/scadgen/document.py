@@ -18,8 +18,8 @@ from typing import Any
 
 import FreeCAD as App
 
-from freecad.scadgen.affine import parse_kit
 from freecad.scadgen.assembly_object import AssemblyObject, parts_of
+from freecad.scadgen.kit_data import parse_kit
 from freecad.scadgen.kit_object import KitObject, data_of
 from freecad.scadgen.names import ROLE_LABELS, joint_label, label_of
 from freecad.scadgen.part_object import PartObject, follows

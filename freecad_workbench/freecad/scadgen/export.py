@@ -13,9 +13,9 @@ from typing import Any, List, Tuple
 import FreeCAD as App
 import Part
 
-from freecad.scadgen.affine import KitError
 from freecad.scadgen.document import kind_of
 from freecad.scadgen.figures import mass, volume
+from freecad.scadgen.kit_data import KitError
 from freecad.scadgen.kit_object import bill_of, data_of
 from freecad.scadgen.mesh_files import Body, Matrix, stl, threemf
 from freecad.scadgen.plates import plates

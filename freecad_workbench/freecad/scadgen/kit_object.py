@@ -8,8 +8,8 @@ from typing import Any
 
 import FreeCAD as App
 
-from freecad.scadgen.affine import KitData, parse_kit
 from freecad.scadgen.figures import mass, volume
+from freecad.scadgen.kit_data import KitData, parse_kit
 from freecad.scadgen.properties import (
     DERIVED,
     FIXED,

@@ -15,20 +15,18 @@ from typing import Any
 
 import FreeCAD
 
-from freecad.scadgen.affine import KitData, parse_kit
 from freecad.scadgen.cells import MOST_CELLS
+from freecad.scadgen.kit_data import KitData, parse_kit
 from freecad.scadgen.names import CELLS, COLOURS, label_of, property_of, role_alone
 from freecad.scadgen.refusal import refuse
 from freecad.scadgen.shape import make_shape, placed, put
+from freecad.scadgen.sheet import COUNTS, parameters_sheet
 from freecad.scadgen.tables import LENGTHS
 
 __all__ = ["open_kit"]
 
 #: The property by which the macro finds its objects again.
 _MARK = "ScadgenMacro"
-
-#: Cells of a frame whose rows and columns can be set: properties and aliases.
-_COUNTS = {"Rows": "rows", "Columns": "columns"}
 
 #: Room between things that stand side by side, in mm.
 _ROOM = 10.0
@@ -79,8 +77,8 @@ class PiecesOfFrame:
             There cannot be so many cells.
         """
         role, _, part = getattr(obj, _MARK).partition(" ")
-        counts = [getattr(obj, name, 0) for name in _COUNTS]
-        for name, count in zip(_COUNTS.values(), counts):
+        counts = [getattr(obj, name, 0) for name in COUNTS]
+        for name, count in zip(COUNTS.values(), counts):
             if self._kit.has_cells and not 1 <= count <= MOST_CELLS:
                 refuse(f"{name} = {count}: must be a whole number from 1 to {MOST_CELLS}")
         edge_length = obj.EdgeLength.Value
@@ -128,7 +126,7 @@ def _marked(document: Any, mark: str) -> bool:
 def _new(kit: KitData, mark: str) -> Any:
     """A document of a kit."""
     document = FreeCAD.newDocument(f"{kit.name}_{kit.key}")
-    sheet = _sheet(document, kit)
+    sheet = parameters_sheet(document, kit)
     _add(sheet, "App::PropertyString", _MARK, "What the macro knows it by", mark)
     document.recompute()
     parts = _parts(document, kit, sheet)
@@ -155,43 +153,6 @@ def _revive(document: Any, kit: KitData) -> None:
         elif _MARK in obj.PropertiesList and obj.TypeId == "App::LinkPython":
             PiecesOfFrame(obj, kit)
             obj.touch()
-
-
-def _sheet(document: Any, kit: KitData) -> Any:
-    """The live parameters and the cells, one a row: an alias for each value, and its bounds."""
-    sheet = document.addObject("Spreadsheet::Sheet", "Parameters")
-    titles = ("Parameter", "Value", "From", "To", "Meaning", "Why")
-    for column, title in zip("ABCDEF", titles):
-        sheet.set(f"{column}1", title)
-    sheet.setStyle("A1:F1", "bold")
-    for row, (name, value) in enumerate(kit.values.items(), 2):
-        limits = [r for r in kit.ranges if r["parameter"] == name]
-        low, high = (
-            " and ".join(dict.fromkeys(_words(r[end]) for r in limits)) for end in ("low", "high")
-        )
-        why = "; ".join(r["reason"] for r in limits)
-        for column, cell in zip("ACDEF", (name, low, high, LENGTHS[name][1], why)):
-            sheet.set(f"{column}{row}", f"'{cell}")
-        sheet.set(f"B{row}", f"={value!r} mm")
-        sheet.setAlias(f"B{row}", name)
-    counts = _COUNTS.items() if kit.has_cells else ()
-    for row, (own, alias) in enumerate(counts, len(kit.values) + 2):
-        for column, cell in zip("ACDE", (alias, "1", MOST_CELLS, CELLS[own])):
-            sheet.set(f"{column}{row}", f"'{cell}")
-        sheet.set(f"B{row}", f"={getattr(kit, alias)}")
-        sheet.setAlias(f"B{row}", alias)
-    for column, width in zip("ABCDEF", (110, 90, 190, 260, 290, 400)):
-        sheet.setColumnWidth(column, width)
-    return sheet
-
-
-def _words(linear: Mapping[str, Any]) -> str:
-    """A bound as a person writes it."""
-    terms = [(f"{abs(f):.5g} {name}", f) for name, f in linear["terms"].items() if f]
-    if linear["constant"] or not terms:
-        terms.append((f"{abs(linear['constant']):.5g} mm", linear["constant"]))
-    words = "".join(f" {'-' if f < 0 else '+'} {text}" for text, f in terms)
-    return words[3:] if terms[0][1] >= 0 else words[1:]
 
 
 def _parts(document: Any, kit: KitData, sheet: Any) -> dict[str, Any]:
@@ -251,7 +212,7 @@ def _frame(document: Any, kit: KitData, parts: Mapping[str, Any], sheet: Any) ->
         )
         _add(link, "App::PropertyDistance", "EdgeLength", LENGTHS["edge_length"][1], 0.0)
         link.setExpression("EdgeLength", f"{sheet.Name}.edge_length")
-        for own, alias in _COUNTS.items() if kit.has_cells else ():
+        for own, alias in COUNTS.items() if kit.has_cells else ():
             _add(link, "App::PropertyInteger", own, CELLS[own], getattr(kit, alias))
             link.setExpression(own, f"{sheet.Name}.{alias}")
         _draw_as_usual(link)

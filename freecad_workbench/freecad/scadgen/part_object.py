@@ -7,8 +7,8 @@ from typing import Any
 
 import FreeCAD as App
 
-from freecad.scadgen.affine import KitData, KitError
 from freecad.scadgen.figures import mass
+from freecad.scadgen.kit_data import KitData, KitError
 from freecad.scadgen.kit_object import bill_of, data_of
 from freecad.scadgen.names import property_of
 from freecad.scadgen.properties import (

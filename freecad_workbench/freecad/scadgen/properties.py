@@ -8,8 +8,8 @@ from typing import Any
 import FreeCAD as App
 
 from freecad.scadgen import refusal
-from freecad.scadgen.affine import KitData, KitError
 from freecad.scadgen.cells import MOST_CELLS
+from freecad.scadgen.kit_data import KitData, KitError
 from freecad.scadgen.names import CELLS, property_of
 from freecad.scadgen.tables import LENGTHS
 

@@ -16,7 +16,7 @@ from typing import Any
 import FreeCAD as App
 
 from freecad.scadgen import document, part_object
-from freecad.scadgen.affine import KitError
+from freecad.scadgen.kit_data import KitError
 
 __all__ = ["BoxesTest"]
 

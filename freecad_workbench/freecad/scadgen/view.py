@@ -8,7 +8,7 @@ from typing import Any
 import FreeCAD as App
 import FreeCADGui as Gui
 
-from freecad.scadgen.affine import KitError
+from freecad.scadgen.kit_data import KitError
 from freecad.scadgen.kit_object import data_of
 from freecad.scadgen.names import COLOURS, icon_of, role_alone
 

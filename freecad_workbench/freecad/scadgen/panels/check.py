@@ -14,12 +14,13 @@ import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
 from freecad.scadgen import document
-from freecad.scadgen.affine import KitData, KitError, read_kit
 from freecad.scadgen.engine import Engine, EngineError, Outcome
 from freecad.scadgen.figures import volume
+from freecad.scadgen.kit_data import KitError, read_kit
 from freecad.scadgen.kit_object import data_of
 from freecad.scadgen.panels.panel import Panel
 from freecad.scadgen.properties import refuse, values_of
+from freecad.scadgen.remake import remaking
 
 __all__ = ["CheckPanel", "Row"]
 
@@ -89,7 +90,7 @@ class CheckPanel(Panel):
         folder = Path(self._folder.name)
         try:
             self.rows = [row for part in self._parts() for row in _faults(part)]
-            self._start(_making(self.kit, folder))
+            self._start(remaking(self.kit, folder))
         except KitError as error:
             self._ended(Outcome(False, "", str(error)))
 
@@ -235,44 +236,3 @@ def _faults(part: Any) -> Iterator[Row]:
     if not math.isclose(found, bound, rel_tol=_EQUAL):
         check = translate("Scadgen", "{} has the shape that its values make").format(part.Label)
         yield Row(False, check, f"{found:.7g} mm3", f"{bound:.7g} mm3", (part.Name,))
-
-
-def _making(kit: Any, folder: Path) -> list[str]:
-    """Arguments that make a kit again at its present values.
-
-    Raises
-    ------
-    KitError
-        A value is out of its range.
-    """
-    data = data_of(kit)
-    values = values_of(kit, data)
-    refuse(data, values)
-    words = ["kit", *_frame(kit, data, folder), "--output", str(folder / "kit")]
-    words += ["--key", data.key, "--detail", data.detail, "--rim", data.rim]
-    for name, value in values.items():
-        words += [_option(name), repr(value)]
-    # The check proves it anyway; but keys that follow from a proof do so again.
-    return words if data.has_refused else [*words, "--unchecked"]
-
-
-def _frame(kit: Any, data: KitData, folder: Path) -> list[str]:
-    """Arguments that name a kit's frame: a tiling, or the file that it is written to."""
-    if data.tiling is None:
-        path = folder / f"{data.name}.json"
-        path.write_text(json.dumps(data.frame), encoding="utf-8")
-        return [str(path)]
-    words = [data.tiling["name"], "--rows", str(kit.Rows), "--columns", str(kit.Columns)]
-    for name, value in data.tiling["options"].items():
-        words += [_option(name), repr(value)]
-    if data.is_regular:
-        weave = data.joints[0]["weave"]
-        path = folder / "weave.json"  # a name in the document may lead elsewhere
-        numbers = {name: value for name, value in weave.items() if name != "name"}
-        path.write_text(json.dumps(numbers), encoding="utf-8")
-        words += ["--weave", str(path)]
-    return words
-
-
-def _option(name: str) -> str:
-    return f"--{name.replace('_', '-')}"

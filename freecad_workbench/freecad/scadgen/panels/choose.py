@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from PySide import QtGui
 
-from freecad.scadgen.affine import KitError
+from freecad.scadgen.kit_data import KitError
 from freecad.scadgen.panels.panel import Panel
 from freecad.scadgen.view import icon
 

@@ -9,7 +9,7 @@ import FreeCAD as App
 import FreeCADGui as Gui
 
 from freecad.scadgen import export
-from freecad.scadgen.affine import KitError
+from freecad.scadgen.kit_data import KitError
 from freecad.scadgen.panels.panel import Panel
 from freecad.scadgen.preferences import bed
 

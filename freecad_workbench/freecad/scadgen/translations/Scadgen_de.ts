@@ -139,6 +139,10 @@
  <context>
   <name>Scadgen</name>
   <message>
+   <source>Angle</source>
+   <translation>Winkel</translation>
+  </message>
+  <message>
    <source>As it stands in the document, at its own values</source>
    <translation>So, wie es im Dokument steht, mit seinen eigenen Werten</translation>
   </message>
@@ -147,8 +151,32 @@
    <translation>Grundelement</translation>
   </message>
   <message>
+   <source>Bay length</source>
+   <translation>Feldlänge</translation>
+  </message>
+  <message>
+   <source>Bays</source>
+   <translation>Felder</translation>
+  </message>
+  <message>
+   <source>Centre</source>
+   <translation>Mitte auf 0</translation>
+  </message>
+  <message>
    <source>Check</source>
    <translation>Prüfen</translation>
+  </message>
+  <message>
+   <source>Choose the file that the frame is in</source>
+   <translation>Die Datei wählen, in der der Rahmen ist</translation>
+  </message>
+  <message>
+   <source>Columns</source>
+   <translation>Spalten</translation>
+  </message>
+  <message>
+   <source>Components</source>
+   <translation>Mehrere Teile</translation>
   </message>
   <message>
    <source>Connector</source>
@@ -179,6 +207,10 @@
    <translation>FEHLER</translation>
   </message>
   <message>
+   <source>Flatten</source>
+   <translation>Kurven</translation>
+  </message>
+  <message>
    <source>Follow the kit</source>
    <translation>Dem Bausatz folgen</translation>
   </message>
@@ -189,6 +221,10 @@
   <message>
    <source>Frame</source>
    <translation>Rahmen</translation>
+  </message>
+  <message>
+   <source>From a file</source>
+   <translation>Aus einer Datei</translation>
   </message>
   <message>
    <source>Give it a clearance of its own</source>
@@ -207,6 +243,10 @@
    <translation>Hälften B</translation>
   </message>
   <message>
+   <source>Height</source>
+   <translation>Höhe</translation>
+  </message>
+  <message>
    <source>Joint</source>
    <translation>Knoten</translation>
   </message>
@@ -223,12 +263,20 @@
    <translation>Wieder dem Bausatz folgen lassen</translation>
   </message>
   <message>
+   <source>Most</source>
+   <translation>Höchstens</translation>
+  </message>
+  <message>
    <source>Must be</source>
    <translation>Soll</translation>
   </message>
   <message>
    <source>New kit</source>
    <translation>Neuer Bausatz</translation>
+  </message>
+  <message>
+   <source>No split</source>
+   <translation>Nicht teilen</translation>
   </message>
   <message>
    <source>One file a part with its count in the name, and a bill of materials</source>
@@ -241,6 +289,10 @@
   <message>
    <source>Open kit</source>
    <translation>Bausatz öffnen</translation>
+  </message>
+  <message>
+   <source>Outline</source>
+   <translation>Umriss</translation>
   </message>
   <message>
    <source>Own clearance</source>
@@ -263,8 +315,36 @@
    <translation>Auseinanderziehen</translation>
   </message>
   <message>
+   <source>Radius</source>
+   <translation>Radius</translation>
+  </message>
+  <message>
+   <source>Repair</source>
+   <translation>Reparieren</translation>
+  </message>
+  <message>
    <source>Restore</source>
    <translation>Wiederherstellen</translation>
+  </message>
+  <message>
+   <source>Rows</source>
+   <translation>Reihen</translation>
+  </message>
+  <message>
+   <source>Scale</source>
+   <translation>Maßstab</translation>
+  </message>
+  <message>
+   <source>Shortest</source>
+   <translation>Kürzeste</translation>
+  </message>
+  <message>
+   <source>Sides</source>
+   <translation>Seiten</translation>
+  </message>
+  <message>
+   <source>Snap</source>
+   <translation>Einrasten</translation>
   </message>
   <message>
    <source>Stopped; nothing was made</source>
@@ -275,6 +355,10 @@
    <translation>Wird angehalten</translation>
   </message>
   <message>
+   <source>Strict</source>
+   <translation>Streng</translation>
+  </message>
+  <message>
    <source>The engine is at work</source>
    <translation>Der Rechenkern arbeitet</translation>
   </message>
@@ -283,12 +367,28 @@
    <translation>Der Bausatz wurde inzwischen gelöscht</translation>
   </message>
   <message>
+   <source>Tolerance</source>
+   <translation>Toleranz</translation>
+  </message>
+  <message>
+   <source>Triangles</source>
+   <translation>Dreiecke</translation>
+  </message>
+  <message>
    <source>Tube</source>
    <translation>Rohr</translation>
   </message>
   <message>
    <source>Two-sided element</source>
    <translation>Zweiseitiges Element</translation>
+  </message>
+  <message>
+   <source>Unit</source>
+   <translation>Einheit</translation>
+  </message>
+  <message>
+   <source>Width</source>
+   <translation>Breite</translation>
   </message>
   <message>
    <source>Written to {}: {}</source>
@@ -313,6 +413,10 @@
   <message>
    <source>scadgen check gave no results: try it at a terminal</source>
    <translation>scadgen check lieferte keine Ergebnisse: am Terminal ausprobieren</translation>
+  </message>
+  <message>
+   <source>scadgen frame gave no list: try it at a terminal</source>
+   <translation>scadgen frame lieferte keine Liste: am Terminal ausprobieren</translation>
   </message>
   <message>
    <source>scadgen was killed or crashed midway; nothing was made: try again</source>
@@ -454,24 +558,16 @@
    <translation>Einen Knoten</translation>
   </message>
   <message>
+   <source>A named frame, or one from a file</source>
+   <translation>Ein Rahmen mit Namen oder einer aus einer Datei</translation>
+  </message>
+  <message>
    <source>Bore</source>
    <translation>Bohrung</translation>
   </message>
   <message>
-   <source>Cells of the frame across</source>
-   <translation>Zellen des Rahmens in der Breite</translation>
-  </message>
-  <message>
-   <source>Cells of the frame up</source>
-   <translation>Zellen des Rahmens in der Höhe</translation>
-  </message>
-  <message>
    <source>Clearance</source>
    <translation>Spiel</translation>
-  </message>
-  <message>
-   <source>Columns</source>
-   <translation>Spalten</translation>
   </message>
   <message>
    <source>Detail</source>
@@ -484,6 +580,10 @@
   <message>
    <source>Draft</source>
    <translation>Entwurf</translation>
+  </message>
+  <message>
+   <source>Drawing, mesh or JSON file with the frame's edges</source>
+   <translation>Zeichnung, Netz oder JSON-Datei mit den Kanten des Rahmens</translation>
   </message>
   <message>
    <source>Edge length</source>
@@ -574,10 +674,6 @@
    <translation>Beweisen, dass der Knoten hält</translation>
   </message>
   <message>
-   <source>Rows</source>
-   <translation>Reihen</translation>
-  </message>
-  <message>
    <source>Side</source>
    <translation>Seite</translation>
   </message>
@@ -614,16 +710,16 @@
    <translation>Die des Rahmens</translation>
   </message>
   <message>
-   <source>The grid that is built</source>
-   <translation>Das Gitter, das gebaut wird</translation>
-  </message>
-  <message>
    <source>Then show</source>
    <translation>Danach zeigen</translation>
   </message>
   <message>
    <source>Weave</source>
    <translation>Geflecht</translation>
+  </message>
+  <message>
+   <source>What fits the frame</source>
+   <translation>Was zum Rahmen passt</translation>
   </message>
   <message>
    <source>What to add to the document besides the kit</source>

@@ -7,7 +7,8 @@ import math
 import numpy as np
 
 from scadgen.errors import InputError
-from scadgen.frame.graph import Frame, make_frame
+from scadgen.frame.graph import Frame
+from scadgen.plane.drawn import make_frame
 from scadgen.solid.affine import Floats
 
 __all__ = ["MOST_SIDES", "ladder", "ring", "strip"]

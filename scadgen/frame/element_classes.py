@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scadgen.joint.symmetry import Symmetry
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["Alike", "Ends", "Slots"]
+__all__ = ["ElementClasses", "ElementEnds", "Slots"]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -55,7 +55,7 @@ class Slots:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Alike:
+class ElementClasses:
     """Edge elements that are the same part.
 
     Parameters
@@ -64,8 +64,8 @@ class Alike:
         ``(k, 2) int``: what is at the ends of each part.
     over
         ``(k, 2) bool``: whether it is turned over there; not if it is alike turned over.
-    length
-        ``(k,) float``: how long it is.
+    length, twist
+        ``(k,) float``: how long it is, and how far it turns about itself.
     which
         ``(m,) int``: the part that each element is.
     swapped, flipped
@@ -75,13 +75,14 @@ class Alike:
     what: Ints
     over: NDArray[np.bool_]
     length: Floats
+    twist: Floats
     which: Ints
     swapped: NDArray[np.bool_]
     flipped: NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Ends:
+class ElementEnds:
     """What edge elements end in.
 
     Parameters
@@ -94,14 +95,18 @@ class Ends:
         ``(m, 2) bool``: whether it is alike turned over.
     length
         ``(m,) float``: how long they are; the same for those that may be the same part.
+    twist
+        ``(m,) float``, or one for all: how far they turn about themselves from end to end; the
+        same for those that may be the same part.
     """
 
     what: Ints
     over: NDArray[np.bool_]
     either: NDArray[np.bool_]
     length: Floats
+    twist: Floats | float = 0.0
 
-    def alike(self) -> Alike:
+    def alike(self) -> ElementClasses:
         """Which are the same part: they may be swapped and turned over.
 
         A part is as most of its elements lie.
@@ -112,15 +117,16 @@ class Ends:
         codes = ((seen[:, :, 0] * size + seen[:, :, 1]) * 2 + seen[:, :, 2]) * 2 + seen[:, :, 3]
         best, row = codes.argmin(axis=0), np.arange(len(self.what))
         swapped, flipped = np.array(options)[best].T
-        rows = np.column_stack([seen[best, row], self.length])
+        twist = np.broadcast_to(self.twist, len(row))
+        rows = np.column_stack([seen[best, row], self.length, twist])
         found, first, which = np.unique(rows, axis=0, return_index=True, return_inverse=True)
         which = which.ravel()
         # Those of which most are turned over become what these are.
         turned = 2 * np.bincount(which, flipped) > np.bincount(which)
         either = np.where(swapped[:, None], self.either[:, ::-1], self.either)[first]
         over = (found[:, 2:4].astype(bool) ^ turned[:, None]) & ~either
-        return Alike(
-            *(found[:, :2].astype(np.int64), over, found[:, 4]),
+        return ElementClasses(
+            *(found[:, :2].astype(np.int64), over, found[:, 4], found[:, 5]),
             *(which, swapped, flipped ^ turned[which]),
         )
 

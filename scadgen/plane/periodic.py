@@ -8,29 +8,31 @@ swing there.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TypedDict, Unpack
+from typing import Unpack
 
 import numpy as np
-import shapely
-from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from scadgen.errors import InputError
-from scadgen.frame.cells import Cell
-from scadgen.frame.graph import Frame, canonical_order, make_frame
+from scadgen.frame.graph import Frame
+from scadgen.plane.area import (
+    MOST_TILES,
+    STICK_OUT,
+    Area,
+    check_count,
+    cover,
+    lies_inside,
+    outline_of,
+    positive,
+)
+from scadgen.plane.cells import Cell
+from scadgen.plane.drawn import canonical_order, make_frame
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["MOST_TILES", "Area", "Block", "Motif", "Tiling", "positive"]
-
-#: A frame of tiles has at most this many before it is clipped; more is a slip of the keyboard.
-MOST_TILES = 100_000
-
-#: How far a tile may stick out of an outline, in shortest edges: a tile that just fits, fits.
-_STICK_OUT = 1e-6
+__all__ = ["Block", "Motif", "Tiling"]
 
 #: Rounding of what is counted in whole cells.
 _ROUNDING = 1e-6
@@ -40,27 +42,6 @@ Place = tuple[int, int]
 
 #: An end of an edge: a vertex of the motif, and the cell that it is in.
 _End = tuple[int, Place]
-
-
-class Area(TypedDict, total=False):
-    """What part of the plane to fill; 3 rows and 3 columns if nothing is said.
-
-    Parameters
-    ----------
-    rows, columns
-        Cells up and across.  Uneven rows are moved back by whole cells, so that they stand
-        above one another.
-    radius
-        Radius of a circle around the middle of a tile, in mm, instead of rows and columns.
-    outline
-        ``(k, 2) float``: corners of a polygon instead, in mm.  The middle of its bounding
-        box is the middle of a tile.
-    """
-
-    rows: int
-    columns: int
-    radius: float
-    outline: ArrayLike
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +84,7 @@ class Block:
     def scaled(self, factor: float) -> Block:
         """The same cells, some times as large."""
         tiling = replace(self.tiling, edge_length=self.tiling.edge_length * factor)
-        points = self.frame.vertices * factor
+        points = self.frame.plan * factor
         frame = make_frame(self.frame.name, points, self.frame.edges)
         return Block(tiling, frame, self.vertex_of[canonical_order(points)])
 
@@ -192,14 +173,14 @@ class Tiling:
         InputError
             An area that is not one of those that `Area` says, or too small for one tile.
         """
-        shape, middle = _shape(area)
+        shape, middle = outline_of(area)
         if shape is None:
             return self.block(area.get("rows", 3), area.get("columns", 3)).frame
         basis = self.basis
         origin = middle - (self.cell.tiles[0] @ basis).mean(axis=0)
-        tiles = self._tiles(_cover(self.cell, basis, origin, shape))
-        margin = _STICK_OUT * self.edge_length
-        kept = [_inside(t @ basis + origin, shape, margin) for t in tiles]
+        tiles = self._tiles(cover(self.cell, basis, origin, shape))
+        margin = STICK_OUT * self.edge_length
+        kept = [lies_inside(t @ basis + origin, shape, margin) for t in tiles]
         tiles = [t[inside] for t, inside in zip(tiles, kept, strict=True)]
         if not any(map(len, tiles)):
             msg = (
@@ -247,7 +228,7 @@ class Tiling:
             if not 1 <= value <= MOST_TILES or value % 1:
                 msg = f"{name} = {value!r}: must be a whole number from 1 to {MOST_TILES}"
                 raise InputError(msg)
-        _check_count(rows * columns * len(self.cell.tiles))
+        check_count(rows * columns * len(self.cell.tiles))
         row, column = np.divmod(np.arange(rows * columns), columns)
         back = np.floor(row * self.drift + 1e-9).astype(np.int64)
         return np.stack([column - back, row], axis=1)
@@ -272,47 +253,6 @@ def _unique(edges: Ints) -> Ints:
     return np.unique(np.sort(edges, axis=1), axis=0)
 
 
-def _shape(area: Area) -> tuple[shapely.Polygon | float | None, Floats]:
-    """The outline, or the circle's radius, and where its middle is."""
-    given = [name for name in ("radius", "outline") if area.get(name) is not None]
-    counts = [name for name in ("rows", "columns") if area.get(name) is not None]
-    if len(given) + bool(counts) > 1:
-        msg = f"{' and '.join(counts + given)}: give rows and columns, or one of radius, outline"
-        raise InputError(msg)
-    if "radius" in given:
-        return positive("radius", area["radius"]), np.zeros(2)
-    if not given:
-        return None, np.zeros(2)
-    corners = np.asarray(area["outline"], dtype=float)
-    good = corners.ndim == 2 and corners.shape[1] == 2 and len(corners) > 2
-    polygon = shapely.Polygon(corners) if good and np.isfinite(corners).all() else None
-    if polygon is None or not polygon.is_valid or polygon.area <= 0:
-        msg = f"outline of shape {corners.shape}: must be 3 or more corners of a simple polygon"
-        raise InputError(msg)
-    return polygon, (corners.min(axis=0) + corners.max(axis=0)) / 2
-
-
-def _cover(cell: Cell, basis: Floats, origin: Floats, shape: shapely.Polygon | float) -> Ints:
-    """Cells that may have a tile inside a shape, and more."""
-    box = np.array([-shape, -shape, shape, shape] if isinstance(shape, float) else shape.bounds)
-    corners = np.array([box[[0, 1]], box[[2, 1]], box[[2, 3]], box[[0, 3]]]) - origin
-    places = corners @ np.linalg.inv(cell.moves @ basis)
-    low = np.floor(places.min(axis=0)) - 2
-    high = np.ceil(places.max(axis=0)) + 2
-    _check_count(float(np.prod(high - low + 1)) * len(cell.tiles))
-    i, j = (np.arange(a, b + 1, dtype=np.int64) for a, b in zip(low, high, strict=True))
-    return np.stack(np.meshgrid(i, j, indexing="ij"), axis=-1).reshape(-1, 2)
-
-
-def _inside(corners: Floats, shape: shapely.Polygon | float, margin: float) -> NDArray[np.bool_]:
-    """Which tiles, ``(n, k, 2)``, lie inside."""
-    if isinstance(shape, float):
-        return np.asarray((np.linalg.norm(corners, axis=2) <= shape + margin).all(axis=1))
-    wide = shape.buffer(margin, join_style="mitre")
-    shapely.prepare(wide)
-    return np.asarray(shapely.covers(wide, shapely.polygons(corners)))
-
-
 def _outlines(tiles: list[Ints]) -> tuple[Ints, Ints, Ints]:
     """All corners, each once; the sides of all tiles as pairs of them; whose side it is."""
     corners = np.concatenate([t.reshape(-1, t.shape[-1]) for t in tiles])
@@ -335,23 +275,3 @@ def _largest_group(sides: Ints, tile_of: Ints) -> Ints:
     graph = coo_array((np.ones(len(sides)), (tile_of, tiles + edge.ravel())), shape=(size, size))
     label = connected_components(graph, directed=False)[1][:tiles]
     return np.asarray(sides[label[tile_of] == np.bincount(label).argmax()])
-
-
-def positive(name: str, value: float) -> float:
-    """A length in mm that must be positive.
-
-    Raises
-    ------
-    InputError
-        It is not.
-    """
-    if not (math.isfinite(value) and value > 0):
-        msg = f"{name} = {value!r}: must be a positive number of mm"
-        raise InputError(msg)
-    return float(value)
-
-
-def _check_count(tiles: float) -> None:
-    if not tiles <= MOST_TILES:
-        msg = f"{tiles:.0f} tiles: at most {MOST_TILES}; longer edges or a smaller area make fewer"
-        raise InputError(msg)

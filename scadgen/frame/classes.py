@@ -1,8 +1,8 @@
 """Which joints and which edges of a frame are the same part.
 
-Two joints are the same if one can be turned onto the other, in the plane or by turning it over.
-Two edges are the same if they are equally long and end in the same places of the same joints,
-one way round or the other, one side up or the other.
+Two joints are the same if one can be turned onto the other, about its axis or by turning it over.
+Two edges are the same if they are equally long, twist alike and end in the same places of the same
+joints, one way round or the other, one side up or the other.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scadgen.errors import InputError
-from scadgen.frame.alike import Ends, Slots
-from scadgen.frame.congruence import JointClass, congruent_joints
+from scadgen.frame.element_classes import ElementEnds, Slots
 from scadgen.frame.graph import Frame
+from scadgen.frame.joint_classes import JointClass, classify_joints
 from scadgen.frame.numbering import where
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = [
+    "Classes",
     "EdgeClass",
-    "Sameness",
     "Snapped",
+    "classify",
     "group_values",
     "joint_name",
-    "sameness",
     "snap",
 ]
 
@@ -44,8 +44,8 @@ class EdgeClass:
 
     Parameters
     ----------
-    length
-        In mm.
+    length, twist
+        In mm, and in radians: how far they turn about themselves from one end to the other.
     joints
         Class of the joint at its first and second end.
     slots
@@ -57,6 +57,7 @@ class EdgeClass:
     """
 
     length: float
+    twist: float
     joints: tuple[int, int]
     slots: tuple[int, int]
     over: bool
@@ -64,7 +65,7 @@ class EdgeClass:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sameness:
+class Classes:
     """What of a frame is the same.
 
     Parameters
@@ -108,6 +109,11 @@ class Sameness:
         """``(m,) float``: the length of each edge's class, in mm."""
         return np.array([edge.length for edge in self.edges])[self.edge_of]
 
+    @property
+    def twists(self) -> Floats:
+        """``(m,) float``: the twist of each edge's class, in radians."""
+        return np.array([edge.twist for edge in self.edges])[self.edge_of]
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Snapped:
@@ -125,16 +131,16 @@ class Snapped:
         The same in words, with the places.
     """
 
-    same: Sameness
+    same: Classes
     angle_error: float
     length_error: float
     miss: float
     notes: tuple[str, ...]
 
 
-def sameness(
+def classify(
     frame: Frame, angle_tolerance: float | None = None, length_tolerance: float = _LENGTH
-) -> Sameness:
+) -> Classes:
     """Group joints by congruence and edges by what they connect.
 
     Parameters
@@ -142,9 +148,10 @@ def sameness(
     frame
         The frame.
     angle_tolerance
-        In radians: a joint is put to a class if one turn brings every direction within this
-        of the class's first joint.  None: what three decimals do to edges of 10 mm, or less
-        where two edges are so near each other that they would be one.
+        In radians: a joint is put to a class if one turn brings every direction, and every slope,
+        within this of the class's first joint; edges of a class twist alike within it.  None: what
+        three decimals do to edges of 10 mm, or less where two edges are so near each other that
+        they would be one.
     length_tolerance
         In mm: a length is put to a class if it is within this of the class's.
 
@@ -162,24 +169,30 @@ def sameness(
             f"{smallest / 4:.4g}, a quarter of the smallest gap"
         )
         raise InputError(msg)
-    joints, (joint_of, over, shift), (turn, errors) = congruent_joints(frame, angle_tolerance)
+    joints, (joint_of, over, shift), (turn, errors) = classify_joints(frame, angle_tolerance)
     lengths, length_of = group_values(frame.lengths, length_tolerance)
+    twists, twist_of = group_values(frame.twists, angle_tolerance)
     kind, way = joint_of[frame.edges], 1 - 2 * over
     slot = way[frame.edges] * (frame.slots - shift[frame.edges]) % frame.degree[frame.edges]
     alike = Slots.of([joint.symmetry for joint in joints])
     turned = alike.over[kind, slot] ^ over[frame.edges].astype(bool)
-    ends = Ends(alike.what[kind, slot], turned, alike.either[kind, slot], lengths[length_of])
+    ends = ElementEnds(
+        alike.what[kind, slot],
+        turned,
+        alike.either[kind, slot],
+        lengths[length_of],
+        twists[twist_of],
+    )
     found, most = ends.alike(), alike.most
     members = _members(found.which, len(found.what))
-    parts = zip(
-        found.what.tolist(), found.over.tolist(), found.length.tolist(), members, strict=True
-    )
+    sizes = zip(found.length.tolist(), found.twist.tolist(), strict=True)
+    parts = zip(found.what.tolist(), found.over.tolist(), sizes, members, strict=True)
     edges = tuple(
-        EdgeClass(length, (a // most, b // most), (a % most, b % most), one != other, which)
-        for (a, b), (one, other), length, which in parts
+        EdgeClass(*size, (a // most, b // most), (a % most, b % most), one != other, which)
+        for (a, b), (one, other), size, which in parts
     )
     off = np.abs(frame.lengths - lengths[length_of])
-    return Sameness(
+    return Classes(
         *(joints, joint_of, over.astype(bool), turn, shift),
         *(edges, found.which, found.swapped, errors, off),
     )
@@ -203,17 +216,17 @@ def snap(frame: Frame, angle: float | None, length: float) -> Snapped:
     Raises
     ------
     InputError
-        As `sameness`.
+        As `classify`.
     """
-    same = sameness(frame, angle, length)
+    same = classify(frame, angle, length)
     aside = frame.lengths[:, None] * np.sin(same.angle_errors[frame.edges])
     miss = np.hypot(aside.max(axis=1), same.length_errors)
     vertex, edge = int(same.angle_errors.argmax()), int(same.length_errors.argmax())
-    middle = frame.vertices[frame.edges].mean(axis=1)
+    middle = frame.places[frame.edges].mean(axis=1)
     worst = math.degrees(same.angle_errors[vertex])
     notes = (
         f"{len(same.joints)} kinds of joints, {len(same.edges)} kinds of edges",
-        f"angles change by up to {worst:.3g} degrees, at {where(frame.vertices[vertex])}",
+        f"angles change by up to {worst:.3g} degrees, at {where(frame.places[vertex])}",
         f"lengths change by up to {same.length_errors[edge]:.3g} mm, at {where(middle[edge])}",
         f"ends miss by up to {miss.max():.3g} mm, at {where(middle[miss.argmax()])}",
     )

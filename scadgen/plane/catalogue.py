@@ -11,9 +11,9 @@ from typing import Any
 
 from scadgen.errors import InputError
 from scadgen.frame.graph import Frame
-from scadgen.frame.periodic import Tiling
-from scadgen.frame.simple import ladder, ring, strip
-from scadgen.frame.tilings import laves, rectangular, rhombic, uniform
+from scadgen.plane.periodic import Tiling
+from scadgen.plane.simple import ladder, ring, strip
+from scadgen.plane.tilings import laves, rectangular, rhombic, uniform
 
 __all__ = ["ALIASES", "NAMES", "OPTIONS", "Family", "NamedTiling", "named"]
 

@@ -14,14 +14,14 @@ from scadgen.kit.solids import Solids
 from scadgen.solid.affine import Floats
 from scadgen.solid.pose import Pose
 
-__all__ = ["Places"]
+__all__ = ["Arrangement"]
 
 #: Decimals of a placement, in edge lengths and degrees.
 _DECIMALS = 9
 
 
 @dataclass(frozen=True, eq=False)
-class Places:
+class Arrangement:
     """Where the parts of a frame stand.
 
     Parameters

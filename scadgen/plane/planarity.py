@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import itertools
-import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import shapely
@@ -12,9 +11,10 @@ from numpy.typing import NDArray
 
 from scadgen.errors import InputError
 from scadgen.frame.numbering import Numbering, where
+from scadgen.frame.words import more
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["COUNTED", "TOUCH", "check_planar", "corner", "crossings", "more", "touches"]
+__all__ = ["COUNTED", "TOUCH", "check_planar", "crossings", "touches"]
 
 #: Of faults that are refused, this many are counted; what is beyond takes time and says no more.
 COUNTED = 1000
@@ -31,25 +31,6 @@ _Bools = NDArray[np.bool_]
 #: A vertex nearer than this to an edge that is not its own lies on it, in mm: a thousand
 #: times the last decimal kept, a thousandth of what any printer resolves.
 TOUCH = 1e-6
-
-
-def corner(vertex: str, gaps: Sequence[float]) -> str:
-    """A vertex, as it is called, and the angles between its edges, in degrees, as text."""
-    return f"{vertex}, angles {', '.join(f'{gap:.4g}' for gap in gaps)}"
-
-
-def more(count: int, most: float = math.inf) -> str:
-    """What is said after the first of several: `` (and 3 more)``; nothing after a lone one.
-
-    Parameters
-    ----------
-    count
-        How many there are.
-    most
-        More than this were not counted.
-    """
-    least = "at least " if count > most else ""
-    return f" (and {least}{count - 1} more)" if count > 1 else ""
 
 
 def touches(vertices: Floats, edges: Ints, within: float, most: int) -> Ints:

@@ -9,9 +9,9 @@ from typing import Generic, TypeVar
 
 from scadgen.errors import ScadgenError
 from scadgen.work.cache import Cache, Entry
-from scadgen.work.crew import ALONE, Crew
+from scadgen.work.executor import ALONE, Executor
 
-__all__ = ["Means", "Task", "each"]
+__all__ = ["Execution", "Task", "map_cached"]
 
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")
@@ -38,7 +38,7 @@ class Task(Generic[_Item, _Result]):
 
 
 @dataclass(frozen=True, slots=True)
-class Means:
+class Execution:
     """What there is to work with.
 
     Parameters
@@ -49,12 +49,12 @@ class Means:
         Where results are kept; None for nowhere.
     """
 
-    crew: Crew = field(default=ALONE)
+    crew: Executor = field(default=ALONE)
     cache: Cache | None = None
 
 
-def each(
-    task: Task[_Item, _Result], items: Sequence[_Item], means: Means
+def map_cached(
+    task: Task[_Item, _Result], items: Sequence[_Item], means: Execution
 ) -> Iterator[tuple[int, _Result]]:
     """Do a task for each of some items.
 
@@ -102,7 +102,7 @@ def _kept(task: Task[_Item, _Result], item: _Item, cache: Cache | None) -> _Resu
 
 
 def _new(
-    task: Task[_Item, _Result], items: Sequence[_Item], numbers: Sequence[int], means: Means
+    task: Task[_Item, _Result], items: Sequence[_Item], numbers: Sequence[int], means: Execution
 ) -> Iterator[tuple[int, _Result]]:
     """Results that are not kept yet, as they come."""
     left, refused = set(numbers), dict[int, ScadgenError]()

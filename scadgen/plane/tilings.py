@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 from scadgen.errors import InputError
-from scadgen.frame.cells import LAVES, LEFT_OUT, UNIFORM, dual, rhombic_cell, uniform_cell
-from scadgen.frame.periodic import Tiling, positive
+from scadgen.plane.area import positive
+from scadgen.plane.cells import LAVES, LEFT_OUT, UNIFORM, dual, rhombic_cell, uniform_cell
+from scadgen.plane.periodic import Tiling
 
 __all__ = ["laves", "rectangular", "rhombic", "uniform"]
 

@@ -17,17 +17,17 @@ from scadgen.joint.weave import LIMITS, Weave
 from scadgen.kit.pieces import Pieces, best_pieces
 from scadgen.solid.affine import Floats
 from scadgen.work.cache import Entry
-from scadgen.work.each import Means, Task, each
 from scadgen.work.fingerprint import key_of
+from scadgen.work.mapping import Execution, Task, map_cached
 
-__all__ = ["Wanted", "made_pieces", "wanted_pieces"]
+__all__ = ["JointSpec", "compute_joint", "compute_joints"]
 
 #: Decimals of directions, in radians: joints that are the same but for rounding are the same.
 _DECIMALS = 11
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class JointSpec:
     """A joint whose pieces are wanted.
 
     Parameters
@@ -57,8 +57,8 @@ class Wanted:
         object.__setattr__(self, "directions", rounded)
 
 
-def wanted_pieces(
-    wanted: Sequence[Wanted], means: Means, done: Callable[[int], None] = lambda _: None
+def compute_joints(
+    wanted: Sequence[JointSpec], means: Execution, done: Callable[[int], None] = lambda _: None
 ) -> tuple[Pieces, ...]:
     """The pieces of joints, in order.
 
@@ -77,13 +77,13 @@ def wanted_pieces(
         The first joint that has no sound ones: says where.
     """
     found: dict[int, Pieces] = {}
-    for number, pieces in each(_TASK, wanted, means):
+    for number, pieces in map_cached(_TASK, wanted, means):
         found[number] = pieces
         done(len(found))
     return tuple(found[number] for number in range(len(wanted)))
 
 
-def made_pieces(wanted: Wanted) -> Pieces:
+def compute_joint(wanted: JointSpec) -> Pieces:
     """The pieces of one joint, on a ring hardly wider where need be.
 
     Raises
@@ -111,7 +111,7 @@ def made_pieces(wanted: Wanted) -> Pieces:
     raise GeometryError(msg) from refusal
 
 
-def _key(wanted: Wanted) -> str:
+def _key(wanted: JointSpec) -> str:
     return key_of("pieces", **{k: v for k, v in asdict(wanted).items() if k != "where"})
 
 
@@ -142,7 +142,7 @@ def _packed(pieces: Pieces) -> Entry:
     return Entry({"pieces": values}, arrays)
 
 
-def _unpacked(entry: Entry, wanted: Wanted) -> Pieces:
+def _unpacked(entry: Entry, wanted: JointSpec) -> Pieces:
     values = entry.values["pieces"]
     own = [
         _piece(n, facets, rest, entry.arrays)
@@ -173,4 +173,4 @@ def _piece(
     return Piece(surface, arrays[f"{number} displacement"], rest)
 
 
-_TASK = Task(made_pieces, _key, _packed, _unpacked)
+_TASK = Task(compute_joint, _key, _packed, _unpacked)

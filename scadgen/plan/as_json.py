@@ -13,8 +13,8 @@ from scadgen.kit.ways import WAY_DECIMALS
 from scadgen.plan.model import Move, Plan
 from scadgen.plan.motion import joints_of, motion_of
 from scadgen.plan.pegs import count_pegs
+from scadgen.plan.text import finished, movable, sentence
 from scadgen.plan.whole import Whole
-from scadgen.plan.words import finished, movable, sentence
 from scadgen.solid.pose import Pose
 
 __all__ = ["FORMAT", "VERSION", "dumps", "plan_entry"]

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scadgen.frame.graph import Frame
 from scadgen.solid.affine import Floats, Ints
 
-__all__ = ["Apart"]
+__all__ = ["Spacing"]
 
 #: Room between two joints, or a joint and a tube, in sides: to put parts in past others.
 _GAP = 0.25
@@ -29,7 +29,7 @@ _ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Apart:
+class Spacing:
     """What the joints of a frame need around them.
 
     Parameters
@@ -72,13 +72,13 @@ class Apart:
         if what == "vertex":
             return self.frame.called_vertex(number)
         ends = self.frame.edges[number]
-        return self.frame.called.short(number, ends, self.frame.vertices[ends])
+        return self.frame.called.short(number, ends, self.frame.plan[ends])
 
     def _near(self, side: float) -> Iterator[tuple[str, Ints, Ints, Floats, Floats]]:
         """What is too near to vertices: its name, numbers, what is needed and what there is."""
         frame, around = self.frame, side * (self.rings + 0.5)
-        points, edges = np.asarray(shapely.points(frame.vertices)), frame.edges
-        lines = np.asarray(shapely.linestrings(frame.vertices[edges]))
+        points, edges = np.asarray(shapely.points(frame.plan)), frame.edges
+        lines = np.asarray(shapely.linestrings(frame.plan[edges]))
         vertex, edge = _within(points, lines, around + side * (_TUBE + _GAP))
         foreign = (edges[edge] != vertex[:, None]).all(axis=1)
         vertex, edge = vertex[foreign], edge[foreign]
@@ -93,7 +93,7 @@ class Apart:
         foreign = ~joined & (vertex != other) & (around[vertex] >= around[other])
         vertex, other = vertex[foreign], other[foreign]
         need = around[vertex] + around[other] + side * _GAP
-        far = np.linalg.norm(frame.vertices[vertex] - frame.vertices[other], axis=1)
+        far = np.linalg.norm(frame.plan[vertex] - frame.plan[other], axis=1)
         yield from _short("vertex", vertex, other, need, far)
 
 

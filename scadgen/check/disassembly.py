@@ -12,26 +12,22 @@ opens all contacts at once is tried; only where there is none of these is a way 
 from __future__ import annotations
 
 import itertools
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from scadgen.check.openings import Openings
+from scadgen.check.opening_motions import Openings
 from scadgen.check.pieces import key_tubes, pieces, tubes
 from scadgen.check.result import Result
 from scadgen.interlock.contacts import Mesh
-from scadgen.interlock.escape import escape
+from scadgen.interlock.escape import STEPS, escape
 from scadgen.interlock.path import Path, narrowest
 from scadgen.interlock.widen import widened
 from scadgen.kit.model import Joint, Kit, Way
 from scadgen.kit.ways import WAY_DECIMALS
 
-__all__ = ["LEAST", "LOOK", "PATIENCE", "come_apart"]
-
-#: Seconds after which the search for what comes out next is given up.
-PATIENCE = 180.0
+__all__ = ["LEAST", "LOOK", "come_apart"]
 
 #: Seeds of the searches: one that gives up too soon mostly does not with another.
 _SEEDS = (1, 2, 3)
@@ -78,7 +74,7 @@ def come_apart(
     joint: Joint,
     known: Iterable[Way] = (),
     *,
-    seconds: float = PATIENCE,
+    steps: int = STEPS,
     roomy: bool = False,
     say: Callable[[str], None] = lambda _: None,
 ) -> Iterator[tuple[Result, Way | None]]:
@@ -92,9 +88,9 @@ def come_apart(
         One of its joints.
     known
         Ways that may do, of this joint or of one like it.
-    seconds
-        Time after which no other try begins to find what comes out next.  All searches for it
-        share that time: one for each piece that may be next and each of some seeds.
+    steps
+        Steps after which a search is given up.  There is one for each piece that may be next
+        and each of some seeds.
     roomy
         Whether to widen each way that is narrow, which may take longer than to find it: it
         then holds for smaller clearances too.
@@ -122,7 +118,7 @@ def come_apart(
         )
         if found is None:
             say(f"searching how {stage.name}")
-            found = bodies.searched(stage, present, seconds)
+            found = bodies.searched(stage, present, steps)
         if isinstance(found, str):
             yield Result(stage.name, good=False, figure=found, bound=_BOUND), None
             return
@@ -236,18 +232,11 @@ class _Bodies:
         gap = self.gap(found, present)
         return (found, gap) if gap > 0 else None
 
-    def searched(self, stage: _Stage, present: set[int], seconds: float) -> tuple[Way, float] | str:
+    def searched(self, stage: _Stage, present: set[int], steps: int) -> tuple[Way, float] | str:
         """A way for this stage and its smallest gap, or what was tried in vain."""
-        tries, late, end = 0, False, time.monotonic() + seconds
-        searches = list(itertools.product(_SEEDS, stage.choices))
-        for number, (seed, choice) in enumerate(searches):
-            left = end - time.monotonic()
-            if left <= 0:
-                late = True
-                break
-            # A piece that is hard to take out leaves time for those after it.
-            share = left / (len(searches) - number)
-            found = escape(*self.bodies(choice, present), seed=seed, seconds=share)
+        tries, finished = 0, True
+        for seed, choice in itertools.product(_SEEDS, stage.choices):
+            found = escape(*self.bodies(choice, present), seed=seed, steps=steps)
             if isinstance(found, Path):
                 way = stage.way(choice, found.scaled(1 / self.side))
                 gap = self.gap(way, present)
@@ -256,8 +245,8 @@ class _Bodies:
                 tries += 1
             else:
                 tries += found.tries
-                late |= not found.in_time
-        return f"none found in {tries} tries{', time was up' if late else ''}"
+                finished &= found.finished
+        return f"none found in {tries} tries{'' if finished else ', not finished'}"
 
     def _with_tubes(self, numbers: Iterable[int]) -> list[Mesh]:
         chosen = sorted(numbers)

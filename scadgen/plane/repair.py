@@ -14,9 +14,11 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from scadgen.errors import InputError
-from scadgen.frame.graph import LARGEST, Frame, make_frame
+from scadgen.frame.graph import Frame
 from scadgen.frame.numbering import BY_PLACE, where
-from scadgen.frame.planarity import COUNTED, TOUCH, crossings, more, touches
+from scadgen.frame.words import more
+from scadgen.plane.drawn import LARGEST, make_frame
+from scadgen.plane.planarity import COUNTED, TOUCH, crossings, touches
 from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["MOST_SEGMENTS", "REPAIRS", "TOLERANCE", "Repaired", "repair"]

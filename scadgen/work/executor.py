@@ -14,13 +14,13 @@ from scadgen.work.attempt import Outcome, attempt
 if TYPE_CHECKING:
     from distributed import Client
 
-__all__ = ["ALONE", "Crew", "hired"]
+__all__ = ["ALONE", "Executor", "open_executor"]
 
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")
 
 
-class Crew:
+class Executor:
     """Who works.
 
     Parameters
@@ -110,17 +110,19 @@ class Crew:
 
 
 #: Nobody but this process.
-ALONE = Crew(1)
+ALONE = Executor(1)
 
 
 @contextmanager
-def hired(jobs: int | None, address: str | None, note: Callable[[str], None]) -> Iterator[Crew]:
+def open_executor(
+    jobs: int | None, address: str | None, note: Callable[[str], None]
+) -> Iterator[Executor]:
     """A crew for as long as it is needed.
 
     Parameters
     ----------
     jobs, note
-        As for `Crew`.
+        As for `Executor`.
     address
         Of a Dask scheduler; None for this machine.
 
@@ -129,14 +131,14 @@ def hired(jobs: int | None, address: str | None, note: Callable[[str], None]) ->
     InputError
         Fewer than one process, or no cluster that can work at the address.
     """
-    crew = Crew(jobs)
+    crew = Executor(jobs)
     if address is None:
         yield crew
         return
     from scadgen.work.cluster import cluster
 
     with cluster(address) as client:
-        yield Crew(jobs, client, note)
+        yield Executor(jobs, client, note)
 
 
 def _in_processes(

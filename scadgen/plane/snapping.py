@@ -17,10 +17,12 @@ from scipy.sparse import block_array, coo_array, csc_array, diags_array
 from scipy.sparse.linalg import splu
 
 from scadgen.errors import InputError
-from scadgen.frame.graph import Frame, make_frame
+from scadgen.frame.classes import Classes, classify, group_values
+from scadgen.frame.graph import Frame
 from scadgen.frame.numbering import where
-from scadgen.frame.sameness import Sameness, group_values, sameness
-from scadgen.solid.affine import Floats, Ints
+from scadgen.plane.drawn import make_frame
+from scadgen.plane.equations import Alike, Equations, angle_sizes, find_angles
+from scadgen.solid.affine import Floats
 
 __all__ = ["Moved", "move_vertices"]
 
@@ -69,25 +71,6 @@ class Moved:
     notes: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Classes:
-    """Which lengths, and which angles, are to be one.
-
-    Parameters
-    ----------
-    length_of, angle_of
-        Class of each edge, and of each angle of `_Angles`.
-    """
-
-    length_of: Ints
-    angle_of: Ints
-
-    @property
-    def counts(self) -> tuple[int, int]:
-        """Number of classes of lengths and of angles."""
-        return int(self.length_of.max()) + 1, int(self.angle_of.max(initial=-1)) + 1
-
-
 def move_vertices(frame: Frame, within: float, shortest: float = 0.0) -> Moved:
     """Move vertices so that fewer kinds of joints and edges are left.
 
@@ -112,7 +95,7 @@ def move_vertices(frame: Frame, within: float, shortest: float = 0.0) -> Moved:
             "shortest edge"
         )
         raise InputError(msg)
-    before = _kinds(sameness(frame))
+    before = _kinds(classify(frame))
     for classes in _candidates(frame, within):
         points = _nearest(frame, classes, within)
         found = None if points is None else _checked(frame, points, shortest)
@@ -131,14 +114,14 @@ def _told(
 ) -> Moved:
     """The result, with its notes."""
     before, after = kinds
-    moves = np.linalg.norm(points - old.vertices, axis=1)
+    moves = np.linalg.norm(points - old.plan, axis=1)
     largest, mean = float(moves.max()), float(moves.mean())
     lengths = np.linalg.norm(np.diff(points[old.edges], axis=1)[:, 0], axis=1)
-    angles = _angles(old)
-    turns = np.degrees(np.abs(_gaps(points, angles) - _gaps(old.vertices, angles)))
+    angles = find_angles(old)
+    turns = np.degrees(np.abs(angle_sizes(points, angles) - angle_sizes(old.plan, angles)))
     turned = float(turns.max(initial=0.0))
     stretched = float(np.abs(lengths - old.lengths).max())
-    furthest = where(old.vertices[moves.argmax()])
+    furthest = where(old.plan[moves.argmax()])
     said = (
         f"{_words(after)} instead of {before[0]} and {before[1]}",
         f"vertices move by up to {largest:.3g} mm, at {furthest}, by {mean:.3g} mm in the mean",
@@ -153,21 +136,21 @@ def _words(kinds: tuple[int, int]) -> str:
     return f"{joints} kind{'s'[: joints != 1]} of joints, {edges} of edges"
 
 
-def _kinds(same: Sameness) -> tuple[int, int]:
+def _kinds(same: Classes) -> tuple[int, int]:
     return len(same.joints), len(same.edges)
 
 
-def _candidates(frame: Frame, within: float) -> Iterator[_Classes]:
+def _candidates(frame: Frame, within: float) -> Iterator[Alike]:
     """Classes to try, the fewest first; none twice."""
-    angles = _angles(frame)
-    values = _gaps(frame.vertices, angles)
-    found: dict[bytes, _Classes] = {}
+    angles = find_angles(frame)
+    values = angle_sizes(frame.plan, angles)
+    found: dict[bytes, Alike] = {}
     for one, other in itertools.product(_LEVELS, _LEVELS):
         # Both ends of an edge may move, and both edges of an angle turn.
         length_of = group_values(frame.lengths, 2 * within * one)[1]
         turn = 4 * within * other / float(frame.lengths.min())
         angle_of = group_values(values, turn)[1] if len(values) else np.zeros(0, np.int64)
-        found.setdefault(length_of.tobytes() + angle_of.tobytes(), _Classes(length_of, angle_of))
+        found.setdefault(length_of.tobytes() + angle_of.tobytes(), Alike(length_of, angle_of))
     return iter(sorted(found.values(), key=lambda classes: sum(classes.counts)))
 
 
@@ -179,36 +162,10 @@ def _checked(frame: Frame, points: Floats, shortest: float) -> tuple[Frame, tupl
         return None
     if moved.lengths.min() < shortest:
         return None
-    return moved, _kinds(sameness(moved))
+    return moved, _kinds(classify(moved))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Angles:
-    """The angles between neighbouring edges, each by three vertices: ``(k,) int``."""
-
-    middle: Ints
-    first: Ints
-    second: Ints
-
-
-def _angles(frame: Frame) -> _Angles:
-    """All angles, but those of loose ends."""
-    ends, count = frame.ends, len(frame.ends.edge)
-    after = np.arange(1, count + 1)
-    after[ends.first[1:] - 1] = ends.first[:-1]
-    middle = np.repeat(np.arange(len(frame.vertices)), frame.degree)
-    some = frame.degree[middle] > 1
-    return _Angles(middle[some], ends.neighbour[some], ends.neighbour[after][some])
-
-
-def _gaps(points: Floats, angles: _Angles) -> Floats:
-    """Size of each angle, in radians, above 0 and up to 2 pi."""
-    to = [points[end] - points[angles.middle] for end in (angles.first, angles.second)]
-    one, other = (np.arctan2(way[:, 1], way[:, 0]) for way in to)
-    return np.asarray(2 * np.pi - (one - other) % (2 * np.pi))
-
-
-def _nearest(frame: Frame, classes: _Classes, within: float) -> Floats | None:
+def _nearest(frame: Frame, classes: Alike, within: float) -> Floats | None:
     """The nearest vertices that meet the classes; None if there are none within reach.
 
     The nearest in the sum of squares may move one vertex too far, where another solution
@@ -219,17 +176,17 @@ def _nearest(frame: Frame, classes: _Classes, within: float) -> Floats | None:
         points = _met(frame, classes, weights, within)
         if points is None:
             return None
-        moves = np.linalg.norm(points - frame.vertices, axis=1)
+        moves = np.linalg.norm(points - frame.plan, axis=1)
         if moves.max() <= within:
             return points
         weights *= np.maximum(moves / within, 0.5) ** 2
     return None
 
 
-def _met(frame: Frame, classes: _Classes, weights: Floats, within: float) -> Floats | None:
+def _met(frame: Frame, classes: Alike, weights: Floats, within: float) -> Floats | None:
     """Vertices that meet the classes, by Newton's method; None if it finds none near."""
-    equations = _Equations(frame, classes)
-    given, points = frame.vertices, frame.vertices
+    equations = Equations(frame, classes)
+    given, points = frame.plan, frame.plan
     free = equations.guess(points)
     for _ in range(_STEPS):
         jacobian, values = equations.at(points)
@@ -253,55 +210,3 @@ def _met(frame: Frame, classes: _Classes, weights: Floats, within: float) -> Flo
         if not np.linalg.norm(points - given, axis=1).max() < 4 * within:
             return None
     return None
-
-
-class _Equations:
-    """That each length and each angle is its class's, in mm.
-
-    Parameters
-    ----------
-    frame
-        The frame.
-    classes
-        The classes.
-    """
-
-    def __init__(self, frame: Frame, classes: _Classes) -> None:
-        self._edges, self._angles = frame.edges, _angles(frame)
-        self._size = len(frame.vertices)
-        #: What an angle is multiplied with, in mm: how far it moves the end of an edge.
-        self._arm = float(np.median(frame.lengths))
-        lengths, angles = classes.counts
-        of = np.concatenate([classes.length_of, lengths + classes.angle_of])
-        #: Which class is in which equation, ``(equations, classes)``.
-        self.picks = csc_array(
-            coo_array((np.ones(len(of)), (np.arange(len(of)), of)), (len(of), lengths + angles))
-        )
-
-    def guess(self, points: Floats) -> Floats:
-        """The mean length or angle of each class."""
-        _, values = self.at(points)
-        return np.asarray(self.picks.T @ values / self.picks.sum(axis=0))
-
-    def at(self, points: Floats) -> tuple[csc_array, Floats]:
-        """All lengths, then all angles, and how vertices change them: ``(k, 2 n)``."""
-        start, end = self._edges.T
-        ways = points[end] - points[start]
-        lengths = np.linalg.norm(ways, axis=1)
-        along = ways / lengths[:, None]
-        row = np.arange(len(lengths))
-        entries = [(row, end, along), (row, start, -along)]
-        angles = self._angles
-        row = len(lengths) + np.arange(len(angles.middle))
-        for tip, sign in ((angles.second, 1.0), (angles.first, -1.0)):
-            way = points[tip] - points[angles.middle]
-            # A direction turns by what its end moves aside, over its length.
-            aside = way[:, ::-1] * (-1.0, 1.0) / (way**2).sum(axis=1)[:, None]
-            aside *= sign * self._arm
-            entries += [(row, tip, aside), (row, angles.middle, -aside)]
-        values = np.concatenate([lengths, self._arm * _gaps(points, angles)])
-        rows = np.concatenate([np.repeat(r, 2) for r, _, _ in entries])
-        columns = np.concatenate([(2 * v[:, None] + (0, 1)).ravel() for _, v, _ in entries])
-        data = np.concatenate([d.ravel() for _, _, d in entries])
-        shape = (len(values), 2 * self._size)
-        return csc_array(coo_array((data, (rows, columns)), shape)), values

@@ -9,10 +9,10 @@ from scadgen.frame.placement import ELEMENTS, Placement, bill
 from scadgen.kit.model import Joint, Kit
 from scadgen.solid.mesh import volume
 
-__all__ = ["check_sense"]
+__all__ = ["validate"]
 
 
-def check_sense(kit: Kit, document: Mapping[str, Any]) -> None:
+def validate(kit: Kit, document: Mapping[str, Any]) -> None:
     """Refuse a kit whose tables and numbers do not belong together.
 
     Raises
