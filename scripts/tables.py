@@ -13,7 +13,7 @@ from xml.sax.saxutils import escape
 
 from scadgen.kit.live import LIVE
 from scadgen.kit.parameter import Live
-from scadgen.kit.roles import PART_ROLES
+from scadgen.kit.roles import COLOURS, PART_ROLES
 
 __all__ = ["tables"]
 
@@ -60,11 +60,16 @@ def _workbench() -> str:
         f'    "{name}": ("{role.label}", "{role.alone}", "{role.icon}"),\n'
         for name, role in PART_ROLES.items()
     )
+    colours = "".join(f'    "{role}": {colour},\n' for role, colour in COLOURS.items())
     optional = "".join(f'"{live.name}", ' for live in LIVE if live.optional).rstrip()
     return f'''\
 """The live parameters, and what parts are for; written by scripts/tables.py.  Do not edit."""
 
-__all__ = ["LENGTHS", "OPTIONAL", "PART_ROLES"]
+__all__ = ["COLOURS", "LENGTHS", "OPTIONAL", "PART_ROLES"]
+
+#: The colour of what a placed piece is.
+COLOURS = {{
+{colours}}}
 
 #: The property that each is, and what it means.
 LENGTHS = {{

@@ -14,6 +14,7 @@ from scadgen.emit.macro import workbench
 from scadgen.frame import placement
 from scadgen.kit import cells as engine_cells
 from scadgen.kit.entries import pose_entry
+from scadgen.kit.roles import COLOURS
 from scadgen.kit.solids import REGULAR
 from scadgen.kit.store import dumps
 from scadgen.plane.catalogue import NAMES
@@ -262,7 +263,7 @@ def test_both_sides_know_the_same_names():
         for node in ast.parse(path.read_text("utf-8")).body
         if isinstance(node, ast.Assign) and isinstance(node.value, ast.Dict)
     }
-    assert tables["COLOURS"] == tables["ROLE_LABELS"] == sense.ROLES
+    assert tables["ROLE_LABELS"] == sense.ROLES == tuple(COLOURS)
     assert tables["_REGULAR"] == REGULAR
 
 

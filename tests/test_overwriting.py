@@ -93,7 +93,7 @@ def test_files_of_others_are_kept_by_every_command_that_writes(run, tmp_path, ma
         "a.csv": ("bill", made, "-o"),
         "a.png": ("interlock", "one.stl", "two.stl", "--png"),
         "a.gif": ("interlock", "one.stl", "two.stl", "--gif"),
-        "w.json": ("tune", "--budget", "0.01", "-o"),
+        "w.json": ("tune", "--rounds", "1", "-o"),
         **{f"part.{kind}": ("export", made, "--part", "half", "-o") for kind in FORMATS},
     }
     for at, name in enumerate(("one.stl", "two.stl")):

@@ -11,7 +11,6 @@ from stub_kit import stub_kit
 
 from scadgen.emit.letters import written
 from scadgen.emit.picture import (
-    COLOURS,
     assembly_picture,
     frame_picture,
     joint_picture,
@@ -21,6 +20,7 @@ from scadgen.emit.picture import (
 from scadgen.emit.readme import readme
 from scadgen.errors import InputError
 from scadgen.frame.classes import joint_name
+from scadgen.kit.roles import COLOURS
 
 PAPER = (250, 250, 248)
 SMALL = (320, 240)

@@ -16,12 +16,12 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 from stub_kit import stub_kit, with_joint
 
-from scadgen.emit.picture import COLOURS
 from scadgen.emit.scad import parameter_sets, scad
 from scadgen.emit.scad_parameters import limits
 from scadgen.emit.scad_text import comment, number, quoted, table
 from scadgen.errors import InvariantError, ToolError
 from scadgen.kit.build import laid_out
+from scadgen.kit.roles import COLOURS
 from scadgen.solid.affine import Linear, Range
 from scadgen.solid.mesh import volume
 from scadgen.tools.openscad import PICTURE, render

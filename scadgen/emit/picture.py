@@ -20,11 +20,11 @@ from scadgen.emit.scad_parameters import limits
 from scadgen.errors import InputError
 from scadgen.frame.placement import Placement, bill
 from scadgen.kit.model import Joint, Kit
+from scadgen.kit.roles import COLOURS
 from scadgen.solid.affine import Floats
 from scadgen.solid.pose import Pose
 
 __all__ = [
-    "COLOURS",
     "MOST_JOINTS",
     "assembly_picture",
     "frame_picture",
@@ -32,18 +32,6 @@ __all__ = [
     "parts_picture",
     "preview",
 ]
-
-#: The colour of each role: steel blue, goldenrod, Indian red, dark salmon, slate, sea green.
-COLOURS: Mapping[str, Colour] = MappingProxyType(
-    {
-        "row": (70, 130, 180),
-        "cross": (218, 165, 32),
-        "half_a": (205, 92, 92),
-        "half_b": (233, 150, 122),
-        "peg": (60, 95, 95),
-        "cap": (46, 139, 87),
-    }
-)
 
 #: Where a joint is seen from: azimuth and elevation, in degrees.
 _VIEW = (-90.0, 48.0)

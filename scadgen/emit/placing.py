@@ -7,10 +7,10 @@ from functools import partial
 
 import numpy as np
 
-from scadgen.emit.picture import COLOURS
 from scadgen.emit.templates import UNCHECKED
 from scadgen.frame.placement import Placement
 from scadgen.kit.model import Kit
+from scadgen.kit.roles import COLOURS
 from scadgen.solid.affine import Floats
 
 __all__ = ["placing"]

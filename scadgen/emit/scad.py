@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from scadgen import __version__
-from scadgen.emit.picture import COLOURS
 from scadgen.emit.scad_numbers import HIGHEST, tubes
 from scadgen.emit.scad_parameters import parameter_sets, sections
 from scadgen.emit.scad_text import comment, expression, faces, number, quoted, table
@@ -23,6 +22,7 @@ from scadgen.frame.placement import Placement
 from scadgen.kit.cells import MOST_CELLS, CellPiece, Cells
 from scadgen.kit.live import LIVE, PARAMETERS
 from scadgen.kit.model import Joint, Kit
+from scadgen.kit.roles import COLOURS
 from scadgen.solid.affine import AffineSolid
 
 __all__ = ["parameter_sets", "scad"]

@@ -1,13 +1,30 @@
-"""What parts are for, in one table; all files call parts by it.
+"""What parts are for, and their colours, each in one table for all files.
 
 What other files hold of it is written by ``scripts/tables.py``.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
-__all__ = ["PART_ROLES", "PartRole"]
+__all__ = ["COLOURS", "PART_ROLES", "Colour", "PartRole"]
+
+Colour = tuple[int, int, int]
+
+#: The colour of what a placed piece is, in all pictures and files: steel blue, goldenrod, Indian
+#: red, dark salmon, sea green, slate.
+COLOURS: Mapping[str, Colour] = MappingProxyType(
+    {
+        "row": (70, 130, 180),
+        "cross": (218, 165, 32),
+        "half_a": (205, 92, 92),
+        "half_b": (233, 150, 122),
+        "cap": (46, 139, 87),
+        "peg": (60, 95, 95),
+    }
+)
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ import FreeCAD as App
 
 from freecad.scadgen.kit_data import KitError
 from freecad.scadgen.kit_object import data_of
-from freecad.scadgen.names import CELLS, COLOURS
+from freecad.scadgen.names import CELLS
 from freecad.scadgen.properties import (
     DERIVED,
     FIXED,
@@ -19,6 +19,7 @@ from freecad.scadgen.properties import (
     frame_of,
 )
 from freecad.scadgen.shape import placed, put
+from freecad.scadgen.tables import COLOURS
 
 __all__ = ["AssemblyObject", "parts_of", "placements_of"]
 

@@ -17,11 +17,11 @@ import FreeCAD
 
 from freecad.scadgen.cells import MOST_CELLS
 from freecad.scadgen.kit_data import KitData, parse_kit
-from freecad.scadgen.names import CELLS, COLOURS, label_of, property_of, role_alone
+from freecad.scadgen.names import CELLS, label_of, property_of, role_alone
 from freecad.scadgen.refusal import refuse
 from freecad.scadgen.shape import make_shape, placed, put
 from freecad.scadgen.sheet import COUNTS, parameters_sheet
-from freecad.scadgen.tables import LENGTHS
+from freecad.scadgen.tables import COLOURS, LENGTHS
 
 __all__ = ["open_kit"]
 

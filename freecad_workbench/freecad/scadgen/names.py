@@ -9,7 +9,6 @@ from freecad.scadgen.tables import LENGTHS, PART_ROLES
 
 __all__ = [
     "CELLS",
-    "COLOURS",
     "ROLE_LABELS",
     "icon_of",
     "joint_label",
@@ -33,16 +32,7 @@ CELLS = {
     "Columns": QT_TRANSLATE_NOOP("App::Property", "Cells of the frame across"),
 }
 
-#: What a placed piece is to the viewer, and its colour: the same as in the kit's other files.
-COLOURS = {
-    "row": (70, 130, 180),
-    "cross": (218, 165, 32),
-    "half_a": (205, 92, 92),
-    "half_b": (233, 150, 122),
-    "cap": (46, 139, 87),
-    "peg": (60, 95, 95),
-}
-
+#: What a placed piece is to the viewer.
 ROLE_LABELS = {
     "row": QT_TRANSLATE_NOOP("Scadgen", "Elements along the rows"),
     "cross": QT_TRANSLATE_NOOP("Scadgen", "Elements between the rows"),

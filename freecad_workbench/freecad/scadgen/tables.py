@@ -1,6 +1,16 @@
 """The live parameters, and what parts are for; written by scripts/tables.py.  Do not edit."""
 
-__all__ = ["LENGTHS", "OPTIONAL", "PART_ROLES"]
+__all__ = ["COLOURS", "LENGTHS", "OPTIONAL", "PART_ROLES"]
+
+#: The colour of what a placed piece is.
+COLOURS = {
+    "row": (70, 130, 180),
+    "cross": (218, 165, 32),
+    "half_a": (205, 92, 92),
+    "half_b": (233, 150, 122),
+    "cap": (46, 139, 87),
+    "peg": (60, 95, 95),
+}
 
 #: The property that each is, and what it means.
 LENGTHS = {

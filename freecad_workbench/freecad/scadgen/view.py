@@ -10,7 +10,8 @@ import FreeCADGui as Gui
 
 from freecad.scadgen.kit_data import KitError
 from freecad.scadgen.kit_object import data_of
-from freecad.scadgen.names import COLOURS, icon_of, role_alone
+from freecad.scadgen.names import icon_of, role_alone
+from freecad.scadgen.tables import COLOURS
 
 __all__ = ["ICONS", "ViewAssembly", "ViewKit", "ViewPart", "icon", "restore", "show"]
 
