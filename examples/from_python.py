@@ -8,28 +8,22 @@ Needs neither OpenSCAD nor any file of the kit.
 import sys
 from pathlib import Path
 
-from scadgen.emit.mesh import mesh_bytes, write_atomic
-from scadgen.kit.build import Request, build
-from scadgen.kit.ranges import check_values
-from scadgen.plane.catalogue import NamedTiling
-from scadgen.solid.mesh import solid_faults, volume
+import scadgen
 
 
 def main(output: Path) -> None:
     """Write half A of a hexagonal kit with side 8 mm and wider gaps."""
-    kit = build(Request.tiled(NamedTiling("hexagonal"), detail="draft", values={"side": 8.0}))
-
-    # The kit keeps its own values; a part is evaluated at any others within the ranges.
-    values = {**kit.values, "clearance": 0.25, "peg_clearance": 0.25}
-    check_values(kit.ranges, values)
-
+    kit = scadgen.make_kit("hexagonal", side=8, detail="draft")
     half = kit.parts["half"]
-    points = half.points(values)  # (v, 3), mm; linear in the values
-    assert not solid_faults(points, half.triangles)  # closed, no crossing faces, ...
 
-    write_atomic(output, mesh_bytes(points, half.triangles, "stl"))
-    content = volume(points, half.triangles) / 1000
-    print(f"{output}: {len(half.triangles)} triangles, {content:.2f} cm3")
+    # The kit keeps its own lengths; a part is evaluated at any others within the ranges.
+    wider = {"clearance": 0.25, "peg_clearance": 0.25}
+    mesh = half.mesh(**wider)  # points (v, 3) in mm, triangles (m, 3)
+    assert mesh.to_trimesh().is_volume  # closed, and its faces look outwards
+
+    half.write(output, **wider)
+    content = half.volume(**wider) / 1000
+    print(f"{output}: {len(mesh.triangles)} triangles, {content:.2f} cm3")
 
 
 if __name__ == "__main__":

@@ -16,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
+from scadgen.api.request import kit_request
 from scadgen.cli.kit import kit as command
-from scadgen.cli.kit_request import kit_request
 from scadgen.frame.placement import bill
 from scadgen.kit.build import build
 from scadgen.kit.live import PARAMETERS

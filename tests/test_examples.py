@@ -70,12 +70,6 @@ def test_python_example_writes_a_watertight_part(tmp_path):
     )
 
 
-def test_python_page_writes_a_watertight_part(tmp_path):
-    (code,) = PYTHON.findall((DOCS / "python.md").read_text())
-    python(["-c", code], tmp_path)
-    assert check_stl(tmp_path / "basic.stl") > 0
-
-
 def test_python_in_the_geometry_page_prints_what_the_page_says(tmp_path):
     text = (ROOT / "docs/geometry.md").read_text()
     (code,) = PYTHON.findall(text)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from scadgen.cli.words import meant
+from scadgen.api.words import meant
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:

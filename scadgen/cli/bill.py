@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
-import shlex
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
@@ -12,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from scadgen.api.command import remade
 from scadgen.cli.console import force_option, kit_files, progress, table, timeout_option
 from scadgen.errors import InputError, ToolError
 
@@ -76,7 +75,7 @@ def bill(
     kit = load(folder)
     if material is not None:
         material = check_material(material)
-        kit = replace(kit, material=material, command=_remade(kit.command, material))
+        kit = replace(kit, material=material, command=remade(kit.command, "material", material))
     place = check_bill(kit, folder) if keep else folder
     program = slicer.find()
     if program is not None and kit.placements:
@@ -180,12 +179,3 @@ def _sliced_words(line: Line, density: float) -> tuple[str, str, str]:
     if line.filament is not None:
         spun = f"{line.filament / 1000 * density:.2f}"
     return each, whole, spun
-
-
-def _remade(command: str, material: str) -> str:
-    """The command that makes a kit again, of another material."""
-    if not command:
-        return command
-    option = f"--material {shlex.quote(material)}"
-    given = re.compile(r"(?<= )--material \w+(?= |$)")
-    return given.sub(option, command) if given.search(command) else f"{command} {option}"

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
+from scadgen.api.words import length, meant
 from scadgen.cli.console import force_option, kit_files
-from scadgen.cli.words import length, meant
 from scadgen.errors import InputError
 from scadgen.kit.model import Kit
 from scadgen.solid.affine import Range

@@ -9,18 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from scadgen.api.curves import share_of_room
+from scadgen.api.options import about_file, about_named, option
+from scadgen.api.source import has_cells, load_frame
 from scadgen.cli.console import force_option, status, table
-from scadgen.cli.curves import share_of_room
 from scadgen.cli.frame_report import SIDES, report, show
-from scadgen.cli.frame_source import (
-    about_file,
-    about_named,
-    has_cells,
-    load_frame,
-    option,
-    source_options,
-)
-from scadgen.cli.words import LENGTH
+from scadgen.cli.length import LENGTH
+from scadgen.cli.source_options import source_options
 from scadgen.errors import InputError
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from scadgen.cli.console import force_option, status
-from scadgen.cli.words import LENGTH
+from scadgen.cli.length import LENGTH
 from scadgen.errors import InputError, InvariantError
 
 if TYPE_CHECKING:

@@ -4,19 +4,19 @@ from __future__ import annotations
 
 import json
 import shlex
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from scadgen.api.command import command_line
+from scadgen.api.curves import told_of_curves
+from scadgen.api.request import keys_note, kit_request
 from scadgen.cli.console import Bar, counted, force_option, progress
-from scadgen.cli.frame_source import source_options
-from scadgen.cli.kit_request import kit_request
-from scadgen.cli.words import LENGTH
-from scadgen.errors import GeometryError, JointError
+from scadgen.cli.length import LENGTH
+from scadgen.cli.source_options import source_options
 from scadgen.kit.live import LIVE, PARAMETERS
 
 if TYPE_CHECKING:
@@ -160,7 +160,7 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
     check_folder(folder, request.name, read, force=force)
     told: list[str] = []
     with (
-        _told_of_curves(notes),
+        told_of_curves(notes),
         open_executor(jobs, dask, told.append) as crew,
         progress(f"making {folder}") as bar,
     ):
@@ -175,30 +175,12 @@ def kit(  # noqa: PLR0913, PLR0917  one argument an option
             force=force,
             progress=lambda file: write(f"writing {file}"),
         )
-    if made.refused:
-        choices = counted(len(made.refused), "choice")
-        told.append(f"{choices} of a key not proved, or the frame loose with it: another is used")
-    notes = (*notes, *told)
+    notes = (*notes, *told, *keys_note(made))
     if as_json:
         said = {"folder": str(folder), "notes": notes, **summary(made)}
         click.echo(json.dumps(said, indent=1))
     else:
         _say(made, folder, notes)
-
-
-@contextmanager
-def _told_of_curves(notes: Sequence[str]) -> Iterator[None]:
-    """Say what helps if there is no room for joints in a drawing that has curves."""
-    from scadgen.readers.curves import CURVED
-
-    try:
-        yield
-    except GeometryError as error:
-        # A joint that is not proved is no matter of room.
-        if isinstance(error, JointError) or not any(note.startswith(CURVED) for note in notes):
-            raise
-        msg = f"{error}; a larger --flatten makes the segments of its curves longer"
-        raise GeometryError(msg) from error
 
 
 def _made(request: Request, means: Execution, bar: Bar, *, unchecked: bool) -> tuple[Kit, float]:
@@ -239,18 +221,11 @@ def _say(made: Kit, folder: Path, notes: Sequence[str]) -> None:
 
 def _command() -> str:
     """The command line that makes the kit again: what was given, but where to."""
-    from scadgen.emit.shell import shell_line
-
     context = click.get_current_context()
-    frame = str(context.params["frame"])
-    # A name that begins so would be an option.
-    words = ["scadgen", "kit", f"./{frame}" if frame.startswith("-") else frame]
-    for parameter in context.command.params:
-        name = parameter.name or ""
-        given = context.get_parameter_source(name) != click.core.ParameterSource.DEFAULT
-        if given and name not in _NOT_MADE:
-            value = context.params[name]
-            words.append(parameter.opts[-1])
-            if value is not True:  # a flag is its option alone
-                words.append(repr(value) if isinstance(value, float) else str(value))
-    return shell_line(words)
+    given = {
+        name: context.params[name]
+        for parameter in context.command.params
+        if (name := parameter.name or "") not in _NOT_MADE
+        and context.get_parameter_source(name) != click.core.ParameterSource.DEFAULT
+    }
+    return command_line(str(context.params["frame"]), given)

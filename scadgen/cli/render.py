@@ -9,8 +9,8 @@ from pathlib import Path
 
 import click
 
+from scadgen.api.words import meant
 from scadgen.cli.console import status, table, timeout_option
-from scadgen.cli.words import meant
 from scadgen.errors import InputError
 
 __all__ = ["render"]

@@ -6,11 +6,7 @@ from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from types import MappingProxyType
 
-import click
-
-from scadgen.errors import InputError
-
-__all__ = ["LENGTH", "length", "meant"]
+__all__ = ["length", "meant"]
 
 #: What some frames are called elsewhere.
 _ELSEWHERE: Mapping[str, str] = MappingProxyType(
@@ -52,20 +48,3 @@ def length(text: str) -> float:
         return float(text)
     except ValueError:
         return millimetres(text)
-
-
-class _Length(click.ParamType[float]):
-    """A length on the command line, in mm."""
-
-    name = "length"
-
-    def convert(
-        self, value: object, param: click.Parameter | None, ctx: click.Context | None
-    ) -> float:
-        try:
-            return length(str(value))
-        except InputError as error:
-            self.fail(str(error), param, ctx)
-
-
-LENGTH = _Length()

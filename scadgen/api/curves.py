@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from scadgen.errors import InputError
+from scadgen.errors import GeometryError, InputError, JointError
 
 if TYPE_CHECKING:
     from scadgen.frame.graph import Frame
     from scadgen.readers.reading import Read
 
-__all__ = ["roomiest", "share_of_room"]
+__all__ = ["roomiest", "share_of_room", "told_of_curves"]
 
 #: Distances from curves that are tried are this many times as large as the one before, and then
 #: halfway between the last two so often.
@@ -86,3 +87,18 @@ def roomiest(
         return finest
     note = f"curves are as near as joints have room for, {good:.3g} mm; --flatten sets how near"
     return replace(found, notes=(*found.notes, note))
+
+
+@contextmanager
+def told_of_curves(notes: Sequence[str]) -> Iterator[None]:
+    """Say what helps if there is no room for joints in a drawing that has curves."""
+    from scadgen.readers.curves import CURVED
+
+    try:
+        yield
+    except GeometryError as error:
+        # A joint that is not proved is no matter of room.
+        if isinstance(error, JointError) or not any(note.startswith(CURVED) for note in notes):
+            raise
+        msg = f"{error}; a larger --flatten makes the segments of its curves longer"
+        raise GeometryError(msg) from error
