@@ -482,7 +482,9 @@ def test_render_draws_numbers_where_they_are_asked_for(run, folder):
     assert (code, out) == (2, "")
     assert err.startswith("scadgen: number_height = 2 mm: must be -1 to 1 mm (deeper")
     _, _, err = run("render", folder, "--set", "numbers=2")
-    assert re.search(r"NAME one of side, .*, number_height\n$", err)
+    assert re.search(
+        r"NAME one of side, .*, number_height \(did you mean number_height\?\)\n$", err
+    )
 
 
 @pytest.mark.parametrize("number", [12345, 67890])
