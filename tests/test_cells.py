@@ -1,6 +1,7 @@
 """Rows and columns of every named tiling: counts by hand, every end once, the same in OpenSCAD."""
 
 import ast
+import math
 import re
 from collections import Counter
 
@@ -13,7 +14,7 @@ from scipy.spatial import cKDTree
 from shared import once
 
 from scadgen.emit.scad import scad
-from scadgen.errors import InputError
+from scadgen.errors import GeometryError, InputError
 from scadgen.frame.placement import bill
 from scadgen.kit.build import Request, build, laid_out
 from scadgen.kit.cells import MOST_CELLS
@@ -152,6 +153,25 @@ def test_counts_outside_the_range_are_refused(count):
         grid("hexagonal", rows=1, columns=count)
     with pytest.raises(InputError, match=rf"rows = {count}: must be a whole number from 1 to"):
         laid_out(kit("square"), count, 1)
+
+
+def test_cells_whose_joints_would_meet_are_refused_with_what_would_do():
+    # Rhombs of 30 degrees: the short diagonal is 0.52 edges long, and two rings must fit on it.
+    lean = NamedTiling("rhombic", {"angle": 30.0})
+    made = build(Request.tiled(lean, detail="draft"))
+    least = max(r.low(made.values) for r in made.ranges if r.parameter == "edge_length")
+    ring = made.joints[0].weave["ring_ratio"]
+    apart = 2 * math.sin(math.radians(15))
+    assert least * apart == pytest.approx(10 * (2 * (ring + 0.5) + 0.25), rel=1e-6)
+    short = Request.tiled(lean, detail="draft", values={"edge_length": least - 1})
+    with pytest.raises(InputError, match="joints and tubes that pass by must keep apart"):
+        build(short)
+
+
+def test_sides_that_are_too_long_are_told_as_such():
+    tall = NamedTiling("rectangular", {"width": 60.0, "height": 20_000.0})
+    with pytest.raises(GeometryError, match="is too long: at most 2000 mm works"):
+        build(Request.tiled(tall, detail="draft"))
 
 
 def test_a_frame_without_cells_has_no_rows_and_columns():

@@ -129,6 +129,18 @@ NONSENSE = {
         "cells", "pieces", 0, "ends", 0, to=[7, 0, 0, 0]
     ),
     "a cell in a slot that is not there": lambda: changed("cells", "pieces", 0, "ends", 0, 3, to=9),
+    "a tiling that does not exist": lambda: changed("tiling", "name", to="gears"),
+    "an end in a slot below zero": lambda: changed("cells", "pieces", 0, "ends", 0, 3, to=-1),
+    "an end in a slot that is no whole number": lambda: changed(
+        "cells", "pieces", 0, "ends", 0, 3, to=1.0
+    ),
+    "cells that are nowhere": lambda: changed("cells", "vertices", 0, "any_of", to=[]),
+    "a piece beside its vertex": lambda: changed("cells", "pieces", 0, "at", to=[0.1, 0.7, 0.0]),
+    "a name of two lines": lambda: changed("name", to="hexagonal\n"),
+    "a half without its end": lambda: changed("parts", "half", "ends", to=[]),
+    "an element without length": lambda: changed("parts", "basic", "length", to=0),
+    "edges in no order": lambda: changed("joints", 0, "turns", to=[0, 240, 120]),
+    "no key at the first edge": lambda: changed("joints", 0, "keys", to=[1]),
     "an edge without its element": lambda: changed("cells", "pieces", 0, "ends", to=[[0, 0, 0, 1]]),
     "no parts": lambda: without("parts"),
     "a part missing": lambda: without("parts", "half"),

@@ -8,8 +8,10 @@ same way as seen from it; the frame can be put together if all rows come off, on
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -18,7 +20,7 @@ from scipy.sparse.csgraph import connected_components
 from scadgen.errors import InputError
 from scadgen.frame.keys import turned_alike
 from scadgen.frame.slots import ANGLE, Keys, Places
-from scadgen.solid.affine import Floats
+from scadgen.solid.affine import Floats, Ints
 
 __all__ = ["choose_keys_in_rows"]
 
@@ -48,7 +50,9 @@ def choose_keys_in_rows(places: Places, parts: Callable[[Keys], int]) -> Keys:
         There is no such choice.
     """
     best: tuple[tuple[float, ...], Keys] | None = None
-    for keys in _choices(places):
+    slots, group = _alike(places)
+    number = math.prod(len(some) for some in slots)
+    for keys in _choices(places, slots, group, every=number <= _CHOICES):
         sines = np.sin([places.direction(v, slot) for v, (slot,) in enumerate(keys)])
         if not _Rows(places, keys).slide_apart():
             continue
@@ -59,27 +63,50 @@ def choose_keys_in_rows(places: Places, parts: Callable[[Keys], int]) -> Keys:
     if best is None:
         msg = (
             "key = 'fixed': with pegs that are part of tubes a frame must be rows that slide onto "
-            "parallel pegs, and no choice of keys makes this one so; loose pegs fit every frame"
+            f"parallel pegs, and {_tried(number)} makes this one so; loose pegs fit every frame"
         )
         raise InputError(msg)
     return best[1]
 
 
-def _choices(places: Places) -> Iterator[list[tuple[int]]]:
-    """One slot for each joint of a shape that is turned alike; no more than can be looked at."""
+def _tried(number: int) -> str:
+    """What was looked at, in words."""
+    if number <= _CHOICES:
+        return "no choice of keys"
+    return f"none of those looked at, of {number} choices of keys,"
+
+
+def _alike(places: Places) -> tuple[list[list[int]], Ints]:
+    """The slots that joints may have keys in which are turned alike, and which these are."""
     *_, group = turned_alike(places)
     first = np.unique(group, return_index=True)[1].tolist()
-    slots = [
-        [
-            slot
-            for slot in range(places.counts[places.shape_of[v]][0])
-            if not places.refuse(v, {slot})
-        ]
-        for v in first
-    ]
-    if np.prod([float(len(some)) for some in slots]) <= _CHOICES:
+    counts = [places.counts[places.shape_of[v]][0] for v in first]
+    return [
+        [slot for slot in range(count) if not places.refuse(v, {slot})]
+        for v, count in zip(first, counts, strict=True)
+    ], group
+
+
+def _choices(
+    places: Places, slots: list[list[int]], group: Ints, *, every: bool
+) -> Iterator[list[tuple[int]]]:
+    """One slot for each joint: the most upright ones, below and above; then every choice."""
+    first = np.unique(group, return_index=True)[1].tolist()
+    if all(slots):
+        for sign in (1, -1):
+            upright = [
+                min(some, key=partial(_height, places, v, sign))
+                for v, some in zip(first, slots, strict=True)
+            ]
+            yield [(upright[n],) for n in group]
+    if every:
         for choice in itertools.product(*slots):
             yield [(choice[n],) for n in group]
+
+
+def _height(places: Places, vertex: int, sign: int, slot: int) -> float:
+    """How far up a slot points, or down."""
+    return sign * math.sin(places.direction(vertex, slot))
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -17,13 +17,15 @@ from scadgen.kit.arrangement import Arrangement
 from scadgen.kit.compute import JointSpec, compute_joints
 from scadgen.kit.model import Kit, Vertex
 from scadgen.kit.pieces import Pieces, best_pieces
-from scadgen.kit.ranges import check_values
+from scadgen.kit.ranges import LONGEST, TUBE, check_values
 from scadgen.kit.repeat import cells_of
 from scadgen.kit.request import Request, default_values
 from scadgen.kit.room import room
 from scadgen.kit.sizing import WIDER, Design, design
 from scadgen.kit.solids import Solids
 from scadgen.plane.drawn import make_frame
+from scadgen.plane.spacing import Spacing
+from scadgen.solid.affine import Linear, Range
 from scadgen.work.mapping import Execution
 
 __all__ = ["Request", "build", "build_joint", "laid_out"]
@@ -57,17 +59,18 @@ def build(
         A weave makes no sound pieces, or the frame cannot be built: says where.
     """
     made = design(request)
-    if request.tiling is None:
+    made.check_longest(request.side)
+    if made.block is None:  # a tiling's edge length has a range
         made.check_room(request)
     wanted = [_wanted(request, made, number) for number in range(len(made.weaves))]
     pieces = compute_joints(wanted, means or Execution(), lambda count: done(count, len(wanted)))
     lengths = (made.same.lengths / made.unit).round(_DECIMALS)
     solids = Solids(made.kinds, made.frame.edges, lengths, pieces, request.regular)
-    limits = solids.limits()
+    limits = (*solids.limits(), *_apart(made, pieces))
     values = default_values(request, pieces, limits)
     values["edge_length"] = made.unit
     check_values([limit for limit in limits if limit.parameter != "edge_length"], values)
-    if request.tiling is None:
+    if made.block is None:
         _check_room(request, made, pieces, values)
     check_values(limits, values)
     places = Arrangement(solids, made.frame.plan / made.unit)
@@ -170,6 +173,17 @@ def _wanted(request: Request, made: Design, number: int) -> JointSpec:
         (0.0,) if request.regular else WIDER,
         "" if request.regular else made.where(number),
     )
+
+
+def _apart(made: Design, pieces: tuple[Pieces, ...]) -> Iterator[Range]:
+    """Of the edge length, so that joints keep apart from others and from tubes that pass by."""
+    rings = np.array([one.weave.ring_ratio for one in pieces])[made.kinds.kind_of]
+    # With a larger side the shortest edges are too short for their own joints.
+    widest = made.unit / (2 * min(one.key.pad for one in pieces) + TUBE)
+    side = Spacing(made.frame, rings).largest_side(widest)
+    if side < widest:
+        low, high = Linear({"side": made.unit / side}), Linear({}, LONGEST)
+        yield Range("edge_length", low, high, "joints and tubes that pass by must keep apart")
 
 
 def _check_room(

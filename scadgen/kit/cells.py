@@ -171,7 +171,7 @@ class Cells:
         edge_number = {edge: n for n, edge in enumerate(edges)}
         elements = (replace(p, edge=edge_number[_edge(p)]) for p in placed if len(p.ends) == 2)
         return Layout(
-            np.array([found[key].at for key in keys]),
+            np.array([found[key].at for key in keys]).reshape(-1, 3),
             np.array(edges, dtype=np.int64).reshape(-1, 2),
             tuple((self.vertices[key[0]].joint, found[key]) for key in keys),
             (
@@ -187,10 +187,7 @@ class Cells:
         for piece in self.pieces:
             for i, j in _cells(piece.any_of, there):
                 if not any((i + a, j + b) in there for a, b in piece.none_of):
-                    ends = tuple(
-                        Place(number[end.vertex, i + end.cell[0], j + end.cell[1]], end.slot)
-                        for end in piece.ends
-                    )
+                    ends = tuple(_place(end, (i, j), number) for end in piece.ends)
                     yield Placement(piece.part, piece.role, self._moved(piece.pose, (i, j)), ends)
 
     def _moved(self, pose: Pose, cell: Cell) -> Pose:
@@ -200,6 +197,21 @@ class Cells:
             for at, across, up in zip(pose.at, self.across, self.up, strict=False)
         )
         return Pose((x, y, pose.at[2]), pose.x, pose.z)
+
+
+def _place(end: CellEnd, cell: Cell, number: Mapping[tuple[int, int, int], int]) -> Place:
+    """Where an end of a piece in a cell is, by the numbers of the vertices.
+
+    Raises
+    ------
+    InputError
+        There is no vertex.
+    """
+    vertex = end.vertex, cell[0] + end.cell[0], cell[1] + end.cell[1]
+    if vertex not in number:
+        msg = f"cells: a piece ends at vertex {end.vertex}, which is not there"
+        raise InputError(msg)
+    return Place(number[vertex], end.slot)
 
 
 def _cells(any_of: Collection[Cell], there: Collection[Cell]) -> list[Cell]:
@@ -231,6 +243,6 @@ def check_cells(rows: int, columns: int) -> None:
         One is not from 1 to `MOST_CELLS`.
     """
     for name, value in (("rows", rows), ("columns", columns)):
-        if not 1 <= value <= MOST_CELLS:
+        if type(value) is not int or not 1 <= value <= MOST_CELLS:
             msg = f"{name} = {value!r}: must be a whole number from 1 to {MOST_CELLS}"
             raise InputError(msg)

@@ -283,7 +283,7 @@ class Kit:
     joints
         The kinds of joints.
     frame
-        The frame, in mm; that of a single joint has no edge.
+        The frame, in mm; None for a single joint, which is there to be judged.
     vertices
         What stands at each of the frame's vertices.
     placements

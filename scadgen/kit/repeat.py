@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from scadgen.errors import InvariantError
 from scadgen.frame.placement import Placement
 from scadgen.kit.arrangement import Arrangement
 from scadgen.kit.cells import Cell, CellEnd, CellPiece, Cells, CellVertex
@@ -80,7 +81,7 @@ class _Repeat:
             if self._stands(v) == self._stands(self._inside[kind][0])
         }
         found: list[int | None] = [None] * len(self._motif.edges)
-        for edge, (number, *_) in enumerate(self._edges):
+        for edge, (number, _) in enumerate(self._edges):
             if found[number] is None and {*self._block.frame.edges[edge].tolist()} <= usual:
                 found[number] = edge
         return found
@@ -119,8 +120,10 @@ class _Repeat:
     def _element(self, number: int) -> CellPiece:
         """The element on an edge of the motif."""
         edge = self._examples[number]
-        assert edge is not None  # noqa: S101  asked for where all are alike
-        _, (i, j), _ = self._edges[edge]
+        if edge is None:
+            msg = f"edge {number} of the motif has an example, where all are alike"
+            raise InvariantError(msg)
+        _, (i, j) = self._edges[edge]
         placement = self._places.element(edge)
         ends = [self._end(end.vertex, end.slot, (i, j)) for end in placement.ends]
         return self._piece(placement, (i, j), ends, self._motif.edges[number][2])
@@ -160,7 +163,7 @@ class _Repeat:
         i, j = self._cell_of[vertex]
         found = {}
         for edge in np.flatnonzero((self._block.frame.edges == vertex).any(axis=1)).tolist():
-            number, (k, m), _ = self._edges[edge]
+            number, (k, m) = self._edges[edge]
             slot = next(end.slot for end in self._places.ends(edge) if end.vertex == vertex)
             cells = self._motif.edges[number][2]
             found[slot] = tuple((a + k - i, b + m - j) for a, b in cells)

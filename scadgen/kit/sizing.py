@@ -79,15 +79,24 @@ class Design:
         """Where the first joint of a kind stands, and its angles."""
         return _where(self.frame, self.kinds, number)
 
-    def check_room(self, request: Request) -> None:
-        """Refuse edges that are too long, too short, or too near to joints.
+    def check_longest(self, side: float) -> None:
+        """Refuse edges that are too long to be printed.
 
         Raises
         ------
         GeometryError
             One is: says where.
         """
-        _check_longest(self.frame, request.side)
+        _check_longest(self.frame, side)
+
+    def check_room(self, request: Request) -> None:
+        """Refuse edges that are too short, or too near to joints.
+
+        Raises
+        ------
+        GeometryError
+            One is: says where.
+        """
         shapes = [self.kinds.shape(n).directions for n in range(len(self.weaves))]
         reach = [reaches(own, w.ring_ratio) for own, w in zip(shapes, self.weaves, strict=True)]
         rings = np.array([weave.ring_ratio for weave in self.weaves])

@@ -197,11 +197,16 @@ def _no_constant(name: str) -> float:
 
 
 def _check_schema(document: dict[str, Any]) -> None:
-    from jsonschema import Draft202012Validator
+    from jsonschema import Draft202012Validator, validators
     from jsonschema.exceptions import best_match
 
     schema = json.loads(resources.files(__package__).joinpath("kit.schema.json").read_text("utf-8"))
-    error = best_match(Draft202012Validator(schema).iter_errors(document))
+    # A number such as 2.0 is no count here.
+    types = Draft202012Validator.TYPE_CHECKER.redefine("integer", lambda _, one: type(one) is int)
+    validator = validators.extend(  # type: ignore[no-untyped-call]
+        Draft202012Validator, type_checker=types
+    )
+    error = best_match(validator(schema).iter_errors(document))
     if error is not None:
         where = "/".join(map(str, error.absolute_path)) or "top"
         _refuse(f"at {where}: {error.message[:120]}")
@@ -230,6 +235,7 @@ def _kit(document: dict[str, Any]) -> Kit:
     )
     if "cells" in document:
         tiling = NamedTiling(document["tiling"]["name"], document["tiling"]["options"])
+        tiling.made()
         kit = replace(kit, tiling=tiling, cells=read_cells(document["cells"]))
         return laid_out(kit, document["rows"], document["columns"])
     drawn = document["frame"]

@@ -5,11 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from scadgen.frame.placement import ELEMENTS, Placement, bill
 from scadgen.kit.model import Joint, Kit
 from scadgen.solid.mesh import volume
 
 __all__ = ["validate"]
+
+#: How far places that are the same may be apart, in edge lengths: rounding.
+_AT = 1e-6
+
+#: How many ends parts have, by their role.
+_ENDS = {"element": 2, "connector": 1, "half": 1, "peg": 1, "tube": 0}
 
 
 def validate(kit: Kit, document: Mapping[str, Any]) -> None:
@@ -30,6 +38,9 @@ def validate(kit: Kit, document: Mapping[str, Any]) -> None:
         _check_joint(one)
     _check_names(kit)
     for name, solid in kit.parts.items():
+        if len(solid.ends) != _ENDS[solid.role] or (solid.is_element and not solid.length > 0):
+            msg = f"part {name}: its ends or its length are not those of its role, {solid.role}"
+            raise ValueError(msg)
         if not {*solid.coefficients} <= {*kit.values}:
             msg = f"part {name}: moved by a parameter that the kit lacks"
             raise ValueError(msg)
@@ -65,10 +76,18 @@ def _check_places(kit: Kit) -> None:
     if [p.edge for p in kit.placements if p.is_element] != [*range(len(edges))]:
         msg = "placements: each edge must have one element, in order"
         raise ValueError(msg)
+    taken: set[tuple[int, int, str]] = set()
     for place in kit.placements:
-        if not _is_sensible(kit, joints, place):
+        here = {(*end, "" if place.is_element else place.role) for end in place.ends}
+        if not _is_sensible(kit, joints, place) or taken & here:
             msg = f"placements: {place.part} as {place.role} does not belong where it is"
             raise ValueError(msg)
+        taken |= here
+    unit = kit.values["edge_length"]
+    at = np.array([vertex.pose.at for vertex in kit.vertices])
+    if not np.allclose(unit * at, kit.frame.vertices, rtol=0, atol=_AT * unit):
+        msg = "vertices: must be where those of the frame are"
+        raise ValueError(msg)
 
 
 def _is_sensible(kit: Kit, joints: Mapping[str, Joint], place: Placement) -> bool:
@@ -78,9 +97,14 @@ def _is_sensible(kit: Kit, joints: Mapping[str, Joint], place: Placement) -> boo
             return False
         if end.slot >= len(joints[kit.vertices[end.vertex].joint].turns):
             return False
+    near = kit.vertices[place.vertex].pose.at
+    if not np.allclose(place.pose.at, near, rtol=0, atol=_AT):
+        return False
+    part = kit.parts.get(place.part)
     if place.edge is not None and kit.frame is not None:
         ends = sorted(end.vertex for end in place.ends)
-        return place.role in ELEMENTS and ends == kit.frame.edges[place.edge].tolist()
+        is_one = part is not None and part.is_element
+        return is_one and place.role in ELEMENTS and ends == kit.frame.edges[place.edge].tolist()
     joint = joints[kit.vertices[place.vertex].joint]
     pieces = {(p.role, p.part, p.slot) for p in joint.pieces}
     return len(place.ends) == 1 and (place.role, place.part, place.slot) in pieces
@@ -94,6 +118,9 @@ def _check_joint(one: Joint) -> None:
         len(one.connectors) != count
         or not slots <= {*range(count)}
         or not {*one.keys, *one.caps, *one.over} <= {*range(count)}
+        or list(one.turns) != sorted({*one.turns})
+        or not 0 == one.turns[0] <= one.turns[-1] < 360
+        or 0 not in one.keys
     ):
         msg = f"{one.title}: its lists do not belong together"
         raise ValueError(msg)

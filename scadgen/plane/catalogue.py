@@ -70,7 +70,7 @@ class NamedTiling:
     @property
     def regular(self) -> bool:
         """Whether its kits have the weave of regular joints, and keys in rows."""
-        return NAMES[self.name].regular
+        return _family(self.name, ()).regular
 
 
 @dataclass(frozen=True, slots=True)

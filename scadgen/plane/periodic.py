@@ -89,14 +89,14 @@ class Block:
         return Block(tiling, frame, self.vertex_of[canonical_order(points)])
 
     @property
-    def edges(self) -> list[tuple[int, Place, bool]]:
-        """Of each edge its number in the tiling's motif, its cell, and if it is the other way."""
+    def edges(self) -> list[tuple[int, Place]]:
+        """Of each edge its number in the tiling's motif, and its cell."""
         number = {(one, other): n for n, (one, other, _) in enumerate(self.tiling.motif.edges)}
         at = [(kind, (i, j)) for kind, i, j in self.vertex_of.tolist()]
         found = []
         for first, second in self.frame.edges.tolist():
-            edge, cell, swapped = _in_motif(at[first], at[second])
-            found.append((number[edge], cell, swapped))
+            edge, cell = _in_motif(at[first], at[second])
+            found.append((number[edge], cell))
         return found
 
 
@@ -203,7 +203,7 @@ class Tiling:
             for vertex, (i, j) in ends:
                 vertices[vertex].add((-i, -j))
             for one, other in zip(ends, ends[1:] + ends[:1], strict=True):
-                edge, (i, j), _ = _in_motif(one, other)
+                edge, (i, j) = _in_motif(one, other)
                 edges.setdefault(edge, set()).add((-i, -j))
         return Motif(
             tuple(tuple(sorted(cells)) for cells in vertices),
@@ -230,7 +230,7 @@ class Tiling:
                 raise InputError(msg)
         check_count(rows * columns * len(self.cell.tiles))
         row, column = np.divmod(np.arange(rows * columns), columns)
-        back = np.floor(row * self.drift + 1e-9).astype(np.int64)
+        back = np.floor(row * self.drift + _ROUNDING).astype(np.int64)
         return np.stack([column - back, row], axis=1)
 
     def _tiles(self, places: Ints) -> list[Ints]:
@@ -239,12 +239,12 @@ class Tiling:
         return [tile + moved[:, None] for tile in self.cell.tiles]
 
 
-def _in_motif(one: _End, other: _End) -> tuple[tuple[_End, _End], Place, bool]:
-    """An edge moved so that its first end is in the first cell; its cell; if ends are swapped."""
+def _in_motif(one: _End, other: _End) -> tuple[tuple[_End, _End], Place]:
+    """An edge moved so that its first end is in the first cell, and the cell that this is in."""
     options = []
-    for swapped, (near, far) in enumerate(((one, other), (other, one))):
+    for near, far in ((one, other), (other, one)):
         (first, (i, j)), (second, (k, m)) = near, far
-        options.append((((first, (0, 0)), (second, (k - i, m - j))), (i, j), bool(swapped)))
+        options.append((((first, (0, 0)), (second, (k - i, m - j))), (i, j)))
     return min(options)
 
 

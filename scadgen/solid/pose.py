@@ -103,11 +103,11 @@ class Pose:
         return np.asarray(np.asarray(vectors, dtype=np.float64) @ self.axes)
 
     def __matmul__(self, other: Pose) -> Pose:
-        """That of what is placed as `other` says within what is placed as this says."""
+        """The pose of `other`, given in this one's axes, in the axes that this one is in."""
         return Pose.of(self.apply(other.at), other.axes @ self.axes)
 
     def inverse(self) -> Pose:
-        """The pose with which this makes none: ``pose.inverse() @ pose`` is `HERE`."""
+        """The motion back: ``pose.inverse() @ pose`` is `HERE`."""
         return Pose.of(-(np.array(self.at) @ self.axes.T), self.axes.T)
 
     def scaled(self, factor: float) -> Pose:
