@@ -59,8 +59,10 @@ def build(
         A weave makes no sound pieces, or the frame cannot be built: says where.
     """
     made = design(request)
-    made.check_longest(request.side)
-    if made.block is None:  # a tiling's edge length has a range
+    in_range = made.block is not None  # of a tiling an edge length that is given is looked at
+    if not in_range or "edge_length" not in request.values:
+        made.check_longest(request.side)
+    if not in_range:
         made.check_room(request)
     wanted = [_wanted(request, made, number) for number in range(len(made.weaves))]
     pieces = compute_joints(wanted, means or Execution(), lambda count: done(count, len(wanted)))
@@ -70,7 +72,7 @@ def build(
     values = default_values(request, pieces, limits)
     values["edge_length"] = made.unit
     check_values([limit for limit in limits if limit.parameter != "edge_length"], values)
-    if made.block is None:
+    if not in_range:
         _check_room(request, made, pieces, values)
     check_values(limits, values)
     places = Arrangement(solids, made.frame.plan / made.unit)

@@ -41,19 +41,22 @@ class PartRole:
         The role of placed pieces whose colour it has alone.
     icon
         Its picture in FreeCAD, one of the workbench's icons.
+    ends
+        How many ends it has that belong to joints.
     """
 
     text: str
     label: str
     alone: str
     icon: str = "kit"
+    ends: int = 0
 
 
 #: What parts are for, by the name in ``kit.json``.
 PART_ROLES = {
-    "element": PartRole("Edge element {}", "Edge element", "row", "basic"),
-    "connector": PartRole("Loose connector {} for the rim", "Connector", "cap", "connector"),
-    "half": PartRole("Locking half {}", "Half", "half_a", "half"),
-    "peg": PartRole("Loose peg {}", "Peg", "peg", "peg"),
+    "element": PartRole("Edge element {}", "Edge element", "row", "basic", 2),
+    "connector": PartRole("Loose connector {} for the rim", "Connector", "cap", "connector", 1),
+    "half": PartRole("Locking half {}", "Half", "half_a", "half", 1),
+    "peg": PartRole("Loose peg {}", "Peg", "peg", "peg", 1),
     "tube": PartRole("Plain tube {}", "Tube", "row", "tube"),
 }

@@ -9,15 +9,13 @@ import numpy as np
 
 from scadgen.frame.placement import ELEMENTS, Placement, bill
 from scadgen.kit.model import Joint, Kit
+from scadgen.kit.roles import PART_ROLES
 from scadgen.solid.mesh import volume
 
 __all__ = ["validate"]
 
 #: How far places that are the same may be apart, in edge lengths: rounding.
 _AT = 1e-6
-
-#: How many ends parts have, by their role.
-_ENDS = {"element": 2, "connector": 1, "half": 1, "peg": 1, "tube": 0}
 
 
 def validate(kit: Kit, document: Mapping[str, Any]) -> None:
@@ -38,7 +36,9 @@ def validate(kit: Kit, document: Mapping[str, Any]) -> None:
         _check_joint(one)
     _check_names(kit)
     for name, solid in kit.parts.items():
-        if len(solid.ends) != _ENDS[solid.role] or (solid.is_element and not solid.length > 0):
+        if len(solid.ends) != PART_ROLES[solid.role].ends or (
+            solid.is_element and not solid.length > 0
+        ):
             msg = f"part {name}: its ends or its length are not those of its role, {solid.role}"
             raise ValueError(msg)
         if not {*solid.coefficients} <= {*kit.values}:
